@@ -23,7 +23,7 @@
 
 namespace drogue::amr {
 
-inline constexpr int block_size = 16;                                        ///< cells per block edge
+inline constexpr int block_size = 16;  ///< cells per block edge
 inline constexpr int block_cells = block_size * block_size * block_size;
 inline constexpr int none = -1;
 
@@ -36,18 +36,18 @@ constexpr Index3 slot_offset(int slot) { return {slot % 3 - 1, slot / 3 % 3 - 1,
 struct Block {
   int level;
   Kind kind;
-  Index3 index;                    ///< block coordinates within the level; may be -1 or n for `boundary`
-  std::array<int, 27> neighbour;   ///< ids on the same level. Leaves: all set. Parents, ghosts and boundaries:
-                                   ///< those that exist, else `none`; periodic images are the real block
-  int parent;                      ///< id of the block of the next coarser level that covers this one (for a
-                                   ///< ghost: its host, a leaf); `none` at level 0 and for `boundary`
-  std::array<int, 8> child;        ///< of a parent: ids in the order x fastest; else all `none`
+  Index3 index;                   ///< block coordinates within the level; may be -1 or n for `boundary`
+  std::array<int, 27> neighbour;  ///< ids on the same level. Leaves: all set. Parents, ghosts and boundaries:
+                                  ///< those that exist, else `none`; periodic images are the real block
+  int parent;                     ///< id of the block of the next coarser level that covers this one (for a
+                                  ///< ghost: its host, a leaf); `none` at level 0 and for `boundary`
+  std::array<int, 8> child;       ///< of a parent: ids in the order x fastest; else all `none`
 };
 
 /// The root brick: what the forest is before any refinement.
 struct Domain {
-  Box box;                                   ///< [m]; each edge is a multiple of block_size * coarsest
-  double coarsest;                           ///< cell edge on level 0 [m]
+  Box box;          ///< [m]; each edge is a multiple of block_size * coarsest
+  double coarsest;  ///< cell edge on level 0 [m]
   std::array<bool, 3> periodic{false, false, false};
 };
 
@@ -72,10 +72,10 @@ class Forest {
   Forest(const Domain& domain, int finest_level, const RefinementCriterion& criterion);
 
   const Domain& domain() const { return domain_; }
-  int levels() const { return static_cast<int>(ranges_.size()); }   ///< levels in use: 1 + the finest that occurs
+  int levels() const { return static_cast<int>(ranges_.size()); }  ///< levels in use: 1 + the finest that occurs
   int finest() const { return levels() - 1; }
-  double spacing(int level) const;                                  ///< cell edge [m]
-  Index3 blocks_across(int level) const;                            ///< blocks in x, y, z that would fill the domain
+  double spacing(int level) const;        ///< cell edge [m]
+  Index3 blocks_across(int level) const;  ///< blocks in x, y, z that would fill the domain
 
   int size() const { return static_cast<int>(blocks_.size()); }
   const Block& block(int id) const { return blocks_[id]; }
@@ -84,9 +84,9 @@ class Forest {
   BlockRange range(int level, Kind kind) const { return ranges_[level][static_cast<int>(kind)]; }
   BlockRange range(int level) const { return {ranges_[level][0].begin, ranges_[level][3].end}; }
 
-  Vec3 lower(int id) const;                                          ///< lower corner of a block [m]
+  Vec3 lower(int id) const;  ///< lower corner of a block [m]
   Box box(int id) const;
-  Vec3 cell_centre(int id, const Index3& cell) const;                ///< [m]
+  Vec3 cell_centre(int id, const Index3& cell) const;  ///< [m]
 
   /// The leaf and cell that hold a point [m]; nothing outside the domain (periodic axes wrap).
   std::optional<Location> locate(const Vec3& point) const;
@@ -96,16 +96,27 @@ class Forest {
   std::int64_t cells(int level) const { return std::int64_t{range(level, Kind::leaf).size()} * block_cells; }
 
  private:
+  void add(int level, Kind kind, const Index3& index);
+  void surround_leaves(int level, Kind kind);  // adds the ghosts, or the boundary blocks, of a level
+  void link(int id);
+  bool is_complete(int id) const;  // what this header promises of a block's links
+  Index3 wrap(int level, Index3 index) const;
+  bool is_outside(int level, const Index3& index) const;
+  Box box(int level, const Index3& index) const;
+
   Domain domain_;
+  Index3 roots_;  // blocks across on level 0
   std::vector<Block> blocks_;
   std::vector<std::array<BlockRange, 4>> ranges_;
-  std::unordered_map<std::uint64_t, int> by_index_;   // (level, index) -> id, boundary blocks included
+  std::unordered_map<std::uint64_t, int> by_index_;  // (level, index) -> id, boundary blocks included
 };
 
-/// Refine blocks that touch `region` until their cells are at most `spacing` [m].
+/// Refine blocks that share volume with `region` until their cells are at most `spacing` [m]; a region that is flat
+/// along an axis refines the blocks on both sides of a face it lies on. Throws InputError if `spacing` is not positive.
 RefinementCriterion refine_box(const Box& region, double coarsest, double spacing);
 
-/// Refine blocks within `distance` [m] of the points swept along `sweep` [m] until cells are at most `spacing` [m].
+/// Refine blocks within `distance` [m] of the points swept along `sweep` [m] until cells are at most `spacing` [m];
+/// distances are in the maximum norm. The points are copied. Throws InputError if `spacing` is not positive.
 RefinementCriterion refine_near(std::span<const Vec3> points, double distance, const Vec3& sweep, double coarsest,
                                 double spacing);
 

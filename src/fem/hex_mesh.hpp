@@ -14,19 +14,19 @@
 namespace drogue::fem {
 
 struct HexMesh {
-  std::vector<Vec3> nodes;                            ///< reference positions [m]
-  std::vector<std::array<int, 8>> elements;           ///< VTK order: bottom face counter-clockwise, then top face
+  std::vector<Vec3> nodes;                   ///< reference positions [m]
+  std::vector<std::array<int, 8>> elements;  ///< VTK order: bottom face counter-clockwise, then top face
   std::map<std::string, std::vector<int>> node_sets;
   std::map<std::string, std::vector<int>> element_sets;
 };
 
 /// A rectangular plate: `normal` is the axis (0, 1, 2) it is thin in; `size` along the two other axes in cyclic order.
 struct PlateDescription {
-  Vec3 centre = Vec3::Zero();              ///< of the mid-surface [m]
+  Vec3 centre = Vec3::Zero();  ///< of the mid-surface [m]
   int normal = 0;
-  std::array<double, 2> size{};            ///< [m]
-  double thickness = 0.0;                  ///< [m]
-  std::array<int, 3> elements{1, 1, 1};    ///< along the two sides, through the thickness
+  std::array<double, 2> size{};          ///< [m]
+  double thickness = 0.0;                ///< [m]
+  std::array<int, 3> elements{1, 1, 1};  ///< along the two sides, through the thickness
 };
 HexMesh make_plate(const PlateDescription& plate);
 

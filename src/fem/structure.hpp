@@ -20,39 +20,43 @@ namespace drogue::fem {
 struct Hold {
   std::vector<int> nodes;
   bool rigid = false;
-  double stiffness = 0.0;   ///< kappa [N/m^4]
-  double damping = 0.0;     ///< eta [N s/m^4]
+  double stiffness = 0.0;  ///< kappa [N/m^4]
+  double damping = 0.0;    ///< eta [N s/m^4]
 };
 
 /// Points that move as one: a node, or the two nodes of a pair through the thickness of a thin solid. A point's mean
-/// velocity carries `mass`; the difference of a pair keeps the solid's own mass, whatever surrounds it.
+/// velocity carries `mass`; the difference of a pair keeps the solid's own mass, whatever surrounds it. Means are
+/// weighted with the nodes' own masses (halves, where the two faces are alike), so that the two motions do not exchange
+/// energy.
 struct Inertia {
-  std::vector<std::array<int, 2>> point;   ///< {a, -1} or {a, b}; every node in exactly one point
-  std::vector<double> mass;                ///< [kg] of the mean motion
+  std::vector<std::array<int, 2>> point;  ///< {a, -1} or {a, b}; every node in exactly one point
+  std::vector<double> mass;               ///< [kg] of the mean motion
 };
 
 struct StructureOptions {
-  double density = 0.0;        ///< own mass per reference volume [kg/m^3]
-  double dissipation = 0.2;    ///< phi - 1 of the Tchamwa-Wielgosz scheme: damps only what the sub-step barely resolves
-  double safety = 0.9;         ///< share of the stable step that is used
-  std::array<double, 2> volume_ratio{0.05, 20.0};   ///< bounds of J at the Gauss points; beyond them Diverged is thrown
+  double density = 0.0;  ///< own mass per reference volume [kg/m^3], positive
+  double dissipation =
+      0.2;              ///< phi - 1 of the Tchamwa-Wielgosz scheme, in [0, 0.5): damps what a sub-step barely resolves
+  double safety = 0.9;  ///< share of the stable step that is used
+  std::array<double, 2> volume_ratio{0.05, 20.0};  ///< bounds of J at the Gauss points; beyond them Diverged is thrown
 };
 
 class Structure {
  public:
-  /// Throws InputError for inverted elements, unconnected nodes, or a pair of which only one node is held.
+  /// Throws InputError for inverted elements, unconnected nodes, a node in two holds, or an option out of range.
   Structure(HexMesh mesh, const Material& material, const StructureOptions& options, std::vector<Hold> holds);
   ~Structure();
   Structure(Structure&&) noexcept;
 
   const HexMesh& mesh() const;
-  std::span<const Vec3> position() const;         ///< [m] per node
-  std::span<const Vec3> velocity() const;         ///< [m/s] per node
-  std::span<const double> own_mass() const;       ///< [kg] per node: density times lumped reference volume
-  std::span<const double> volume() const;         ///< [m^3] lumped reference volume per node
+  std::span<const Vec3> position() const;    ///< [m] per node
+  std::span<const Vec3> velocity() const;    ///< [m/s] per node
+  std::span<const double> own_mass() const;  ///< [kg] per node: density times lumped reference volume
+  std::span<const double> volume() const;    ///< [m^3] lumped reference volume per node
   void set_state(std::span<const Vec3> position, std::span<const Vec3> velocity);
 
-  /// Replaces the default inertia (every node a point of its own mass).
+  /// Replaces the default inertia (every node a point of its own mass). Throws InputError for a mass that is not
+  /// positive, a node not in exactly one point, or a pair whose nodes are not held alike.
   void set_inertia(Inertia inertia);
   const Inertia& inertia() const;
   /// Shifts both nodes of a point so that their mean velocity becomes `v` [m/s]; differences are kept.
@@ -60,21 +64,22 @@ class Structure {
   Vec3 mean_position(int point) const;
   Vec3 mean_velocity(int point) const;
 
-  /// Integrates over `dt` [s] in sub-steps; throws Diverged (naming element, J, place) for a volume ratio out of bounds.
+  /// Integrates over `dt` [s] in sub-steps; throws Diverged (naming element, J, place) for a volume ratio out of
+  /// bounds.
   void advance(double dt, double time);
-  int substeps() const;             ///< taken by the last advance
-  double largest_frequency() const; ///< [rad/s] estimate behind the sub-step
+  int substeps() const;              ///< taken by the last advance
+  double largest_frequency() const;  ///< [rad/s] upper estimate from the elements as deformed, behind the sub-step
 
   /// Nodal forces of the elements [N] (minus the gradient of the energy) at the given positions.
   void internal_force(std::span<const Vec3> position, std::span<Vec3> force) const;
-  Vec3 reaction() const;            ///< [N] mean force of all holds on the body over the last advance
-  double elastic_energy() const;    ///< [J]
-  double kinetic_energy() const;    ///< [J] with the point and difference masses in use
-  std::array<double, 2> volume_ratio_range() const;   ///< smallest and largest J at the Gauss points now
+  Vec3 reaction() const;                             ///< [N] mean force of all holds on the body over the last advance
+  double elastic_energy() const;                     ///< [J]
+  double kinetic_energy() const;                     ///< [J] with the point and difference masses in use
+  std::array<double, 2> volume_ratio_range() const;  ///< smallest and largest J at the Gauss points now
   /// Root mean square over pairs of the velocity difference of the two faces [m/s], along the line that joins them
   /// (thickness change) and in full; zeros without pairs.
   std::array<double, 2> face_velocity_difference() const;
-  double mean_thickness_stretch() const;              ///< mean over pairs of current over reference distance; 1 without
+  double mean_thickness_stretch() const;  ///< mean over pairs of current over reference distance; 1 without
 
  private:
   struct Data;

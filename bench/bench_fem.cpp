@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Speed of the structure on the plate of the first case: 52 x 52 x 1 hexahedra of 0.8128 m x 0.8128 m x 5 mm, E = 1
+// kPa.
+#include <benchmark/benchmark.h>
+#include <omp.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "fem/hex_elements.hpp"
+#include "fem/structure.hpp"
+
+namespace {
+
+using namespace drogue;
+using namespace drogue::fem;
+
+constexpr double pi = std::numbers::pi;
+
+HexMesh plate() { return make_plate({Vec3::Zero(), 0, {0.8128, 0.8128}, 5e-3, {52, 52, 1}}); }
+
+/// Bulges the plate between its corners, and thins it there.
+std::vector<Vec3> deformed(const HexMesh& mesh) {
+  std::vector<Vec3> x;
+  for (const Vec3& X : mesh.nodes) {
+    const double bulge = std::cos(X.y() * pi / 0.8128) * std::cos(X.z() * pi / 0.8128);
+    x.emplace_back(0.2 * bulge + X.x() * (1.0 - 0.2 * bulge), X.y(), X.z());
+  }
+  return x;
+}
+
+void forces(benchmark::State& state, const Material& material) {
+  const HexMesh mesh = plate();
+  HexElements elements(mesh, material, {0.05, 20.0});
+  const std::vector<Vec3> x = deformed(mesh);
+  for (auto _ : state) elements.compute_forces(x);
+  state.counters["Gauss points/s"] =
+      benchmark::Counter(8.0 * elements.count() * static_cast<double>(state.iterations()), benchmark::Counter::kIsRate);
+}
+
+void stable_step(benchmark::State& state, const Material& material) {
+  const HexMesh mesh = plate();
+  const HexElements elements(mesh, material, {0.05, 20.0});
+  const std::vector<Vec3> x = deformed(mesh);
+  std::vector<double> bounds(mesh.elements.size());
+  const std::vector<std::array<double, 3>> lightness(mesh.elements.size(), {1.0, 1.0, 1.0});
+  for (auto _ : state) elements.stiffness_bounds(x, lightness, bounds);
+}
+
+/// One fluid step of 7.8e-4 s, the pairs of nodes carrying 40 times their own mass, corners held.
+void advance(benchmark::State& state, const Material& material) {
+  omp_set_num_threads(static_cast<int>(state.range(0)));
+  const HexMesh mesh = plate();
+  const double density = 1.0;
+  Structure structure(mesh, material, {.density = density}, {{corner_nodes(mesh, 0.0156), false, 1e7, 1e2}});
+  const auto pairs = thickness_pairs(mesh, 6e-3);
+  Inertia inertia{pairs, {}};
+  for (const double area : pair_areas(mesh, pairs)) inertia.mass.push_back(40.0 * density * area * 5e-3);
+  structure.set_inertia(inertia);
+  const std::vector<Vec3> start = deformed(mesh), rest(start.size(), Vec3::Zero());
+  int done = 0, substeps = 0;
+  for (auto _ : state) {
+    if (done++ % 100 == 0) structure.set_state(start, rest);
+    structure.advance(7.8e-4, 0.0);
+    substeps += structure.substeps();
+  }
+  state.counters["sub-steps"] = benchmark::Counter(substeps, benchmark::Counter::kAvgIterations);
+  state.counters["Gauss points/s"] = benchmark::Counter(8.0 * 2704.0 * substeps, benchmark::Counter::kIsRate);
+}
+
+const NeoHookean neo_hookean(1e3, 0.3, 0.3);
+const SaintVenantKirchhoff saint_venant_kirchhoff(1e3, 0.3);
+
+BENCHMARK_CAPTURE(forces, neo_hookean, neo_hookean);
+BENCHMARK_CAPTURE(forces, saint_venant_kirchhoff, saint_venant_kirchhoff);
+BENCHMARK_CAPTURE(stable_step, neo_hookean, neo_hookean);
+BENCHMARK_CAPTURE(stable_step, saint_venant_kirchhoff, saint_venant_kirchhoff);
+BENCHMARK_CAPTURE(advance, neo_hookean, neo_hookean)->Arg(1)->Arg(2)->UseRealTime();
+BENCHMARK_CAPTURE(advance, saint_venant_kirchhoff, saint_venant_kirchhoff)->Arg(1)->Arg(2)->UseRealTime();
+
+}  // namespace
+
+BENCHMARK_MAIN();

@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "app/case.hpp"
+
+#include <cmath>
+
+namespace drogue::app {
+
+int level_of(double coarsest, double spacing) {
+  const double level = std::log2(coarsest / spacing);
+  const double nearest = std::round(level);
+  return nearest >= 0.0 && std::abs(level - nearest) < 1e-9 ? static_cast<int>(nearest) : amr::none;
+}
+
+double time_step(const Case& c, int level) {
+  return c.fluid.lattice_velocity * std::ldexp(c.domain.coarsest, -level) / c.fluid.reference_velocity;
+}
+
+double relaxation_time(const Case& c, int level) {
+  const double dx = std::ldexp(c.domain.coarsest, -level);
+  return 0.5 + 3.0 * c.fluid.viscosity * time_step(c, level) / (dx * dx);
+}
+
+Vec3 flow_direction(const Case& c) {
+  const Vec3 middle = 0.5 * (c.domain.box.lower + c.domain.box.upper);
+  for (int face = 0; face < 6; ++face) {
+    if (c.fluid.face[face].type != fluid::Boundary::velocity) continue;
+    Vec3 centre = middle;
+    centre[face / 2] = (face % 2 == 0 ? c.domain.box.lower : c.domain.box.upper)[face / 2];
+    Vec3 velocity;
+    for (int axis = 0; axis < 3; ++axis) velocity[axis] = c.fluid.face[face].velocity[axis](centre, c.end);
+    if (velocity.norm() > 0.0) return velocity.normalized();
+  }
+  return Vec3::UnitX();
+}
+
+}  // namespace drogue::app

@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// A case: everything that decides a run, in SI, read and validated. Plain data; `case_reader` fills it.
+#pragma once
+
+#include <array>
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "amr/forest.hpp"
+#include "core/types.hpp"
+#include "fem/hex_mesh.hpp"
+#include "fem/material.hpp"
+#include "fem/structure.hpp"
+#include "fluid/specification.hpp"
+#include "fsi/coupling.hpp"
+
+namespace drogue::app {
+
+/// Cells of at most `spacing` in a box, or within `distance` of a body and of the places it moves through.
+struct Region {
+  std::optional<Box> box;
+  std::string body;
+  double distance = 0.0;      ///< [m]
+  Vec3 sweep = Vec3::Zero();  ///< [m]
+  double spacing = 0.0;       ///< [m]
+};
+
+/// fem::Hold with its nodes still named: "corners", "all", or a node set of the mesh.
+struct HoldDescription {
+  std::string nodes;
+  double patch = 0.0;  ///< [m] edge of the held corner
+  bool rigid = false;
+  double stiffness = 0.0;  ///< [N/m^4]
+  double damping = 0.0;    ///< [N s/m^4]
+};
+
+struct Body {
+  std::string name;
+  std::variant<fem::PlateDescription, std::filesystem::path> mesh;
+  fem::Material material;
+  fem::StructureOptions structure;
+  std::vector<HoldDescription> holds;
+  double reference_area = 0.0;  ///< [m^2] of the drag coefficient
+  fsi::CouplingOptions coupling;
+};
+
+/// Intervals between outputs [s]; 0 for none (history: every coarse step).
+struct Output {
+  double history = 0.0, fluid = 0.0, canopy = 0.0;
+};
+
+struct ResultOptions {
+  std::string body;                       ///< whose results are summarised; empty without bodies
+  std::array<double, 2> stable_window{};  ///< [s]
+  double peak_from = 0.0;                 ///< [s]
+};
+
+/// A published number that a result of the run is held against.
+struct Reference {
+  std::string name;  ///< of the result
+  double value = 0.0;
+  double within = 0.0;  ///< relative
+  std::string source;
+};
+
+struct Case {
+  std::filesystem::path file;
+  std::string name;  ///< of the folder
+  std::string title;
+  std::string solver;
+
+  fluid::Specification fluid;
+  double reference_length = 0.0;  ///< [m]; 0 if not given
+  amr::Domain domain;
+  double finest = 0.0;  ///< cell edge [m]
+  std::vector<Region> regions;
+  std::vector<Body> bodies;
+  double end = 0.0;  ///< [s]
+  Output output;
+  ResultOptions results;
+  std::vector<Reference> references;
+
+  std::map<std::string, std::string> origin;  ///< key -> "file:line" it was given at, for messages
+  std::string resolved;                       ///< the case as TOML, every key with its value in use
+};
+
+inline constexpr std::array<const char*, 6> face_names{"x_min", "x_max", "y_min", "y_max", "z_min", "z_max"};
+
+/// Number of refinement levels between `coarsest` and `spacing`, or `amr::none` if that is no halving of `coarsest`.
+int level_of(double coarsest, double spacing);
+
+/// Step of a level [s]: the reference velocity crosses `lattice_velocity` cells in it.
+double time_step(const Case& c, int level);
+/// Relaxation time of a level in its own steps.
+double relaxation_time(const Case& c, int level);
+/// Unit vector of the flow that enters: of the first velocity face at its centre, or x.
+Vec3 flow_direction(const Case& c);
+
+}  // namespace drogue::app

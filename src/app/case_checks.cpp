@@ -1,0 +1,217 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "app/case_checks.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "app/results.hpp"
+#include "app/value.hpp"
+#include "core/error.hpp"
+#include "core/nearest_name.hpp"
+
+namespace drogue::app {
+
+namespace {
+
+constexpr double largest_mach = 0.3;          // compressibility errors grow with its square
+constexpr double largest_tau = 2.0;           // beyond it the error terms of the scheme dominate
+constexpr double smallest_tau_excess = 1e-7;  // below it tau - 1/2 is lost in single precision
+constexpr double delta_margin = 3.0;          // cells around a marker: half the widest delta, and one to move in
+
+constexpr std::array<const char*, 3> axis_names{"x", "y", "z"};
+
+void check_domain(const Case& c) {
+  const Box& box = c.domain.box;
+  const double root = amr::block_size * c.domain.coarsest;
+  for (int axis = 0; axis < 3; ++axis) {
+    const double length = box.upper[axis] - box.lower[axis];
+    if (length <= 0.0) {
+      fail(c, "domain.upper",
+           fmt::format("= {} is not beyond domain.lower = {} in {}", write_value(box.upper), write_value(box.lower),
+                       axis_names[axis]));
+    }
+    const double blocks = length / root;
+    if (blocks < 0.5 || std::abs(blocks - std::round(blocks)) > 1e-9 * blocks) {
+      fail(c, "grid.coarsest",
+           fmt::format("= {} does not divide the domain into blocks: its edge in {}, {} m, must be a multiple of {} "
+                       "cells, {} m",
+                       c.domain.coarsest, axis_names[axis], length, amr::block_size, root));
+    }
+    const bool lower_wraps = c.fluid.face[2 * axis].type == fluid::Boundary::periodic;
+    const bool upper_wraps = c.fluid.face[2 * axis + 1].type == fluid::Boundary::periodic;
+    if (lower_wraps != upper_wraps) {
+      const int other = 2 * axis + (lower_wraps ? 1 : 0);
+      fail(c, fmt::format("domain.{}.type", face_names[other]),
+           fmt::format("is not \"periodic\" although domain.{} is; opposite sides are periodic together",
+                       face_names[other ^ 1]));
+    }
+  }
+}
+
+void check_spacing(const Case& c, const std::string& key, double spacing) {
+  if (level_of(c.domain.coarsest, spacing) != amr::none) return;
+  const double level = std::max(0.0, std::round(std::log2(c.domain.coarsest / spacing)));
+  fail(c, key,
+       fmt::format("= {} is not grid.coarsest / 2^n; expected a halving of {}, for example {}", spacing,
+                   c.domain.coarsest, std::ldexp(c.domain.coarsest, -static_cast<int>(level))));
+}
+
+void check_grid(const Case& c) {
+  check_spacing(c, "grid.finest", c.finest);
+  for (std::size_t i = 0; i < c.regions.size(); ++i) {
+    const Region& region = c.regions[i];
+    const std::string key = fmt::format("grid.region.{}", i);
+    check_spacing(c, key + ".spacing", region.spacing);
+    if (region.spacing < c.finest * (1.0 - 1e-9)) {
+      fail(c, key + ".spacing", fmt::format("= {} is below grid.finest = {}", region.spacing, c.finest));
+    }
+    if (region.box && (region.box->size().array() <= 0.0).any()) {
+      fail(c, key + ".box", fmt::format("= {} is empty; expected [lower, upper]", write_value(*region.box)));
+    }
+    if (region.box && !region.box->overlaps(c.domain.box)) {
+      fail(c, key + ".box", fmt::format("= {} lies outside the domain", write_value(*region.box)));
+    }
+    if (!region.box && std::ranges::find(c.bodies, region.body, &Body::name) == c.bodies.end()) {
+      fail(c, key + ".body", fmt::format("= \"{}\" is not the name of a body", region.body));
+    }
+  }
+}
+
+/// Largest speed [m/s] that enters or starts anywhere; sampled, since it may be any formula.
+double largest_speed(const Case& c) {
+  constexpr int samples = 5;
+  double largest = c.fluid.reference_velocity;
+  const auto consider = [&](const Formulas& velocity, const Vec3& place, double time) {
+    const Vec3 v(velocity[0](place, time), velocity[1](place, time), velocity[2](place, time));
+    largest = std::max(largest, v.norm());
+  };
+  for (int i = 0; i < samples * samples * samples; ++i) {
+    const Eigen::Array3d share =
+        Eigen::Array3d(i % samples, i / samples % samples, i / samples / samples) / (samples - 1);
+    const Vec3 place = c.domain.box.lower.array() + share * c.domain.box.size().array();
+    consider(c.fluid.initial_velocity, place, 0.0);
+    for (const fluid::Face& face : c.fluid.face) {
+      for (int k = 0; k <= samples; ++k) consider(face.velocity, place, c.end * k / samples);
+    }
+  }
+  return largest;
+}
+
+void check_fluid(const Case& c) {
+  const double mach = std::sqrt(3.0) * c.fluid.lattice_velocity;
+  if (mach > largest_mach) {
+    fail(c, "fluid.lattice_velocity",
+         fmt::format("= {} makes the Mach number {:.3g}; expected at most {}, that is {:.3g}", c.fluid.lattice_velocity,
+                     mach, largest_mach, largest_mach / std::sqrt(3.0)));
+  }
+  const double fastest = mach * largest_speed(c) / c.fluid.reference_velocity;
+  if (fastest > largest_mach) {
+    fail(c, "fluid.reference_velocity",
+         fmt::format(
+             "= {} is too small: the largest velocity given, {:.4g} m/s, has the Mach number {:.3g}; expected at "
+             "most {}",
+             c.fluid.reference_velocity, fastest / mach * c.fluid.reference_velocity, fastest, largest_mach));
+  }
+  for (int level = 0; level <= level_of(c.domain.coarsest, c.finest); ++level) {
+    const double tau = relaxation_time(c, level);
+    if (tau <= largest_tau && tau - 0.5 >= smallest_tau_excess) continue;
+    fail(
+        c, "fluid.viscosity",
+        fmt::format("= {} makes the relaxation time {:.10g} on level {} (cells of {} m); expected {} to {}; change the "
+                    "viscosity, the spacing or fluid.lattice_velocity",
+                    c.fluid.viscosity, tau, level, std::ldexp(c.domain.coarsest, -level), 0.5 + smallest_tau_excess,
+                    largest_tau));
+  }
+}
+
+void check_bodies(const Case& c) {
+  for (std::size_t i = 0; i < c.bodies.size(); ++i) {
+    const Body& body = c.bodies[i];
+    const std::string key = "body." + body.name;
+    const bool plain = !body.name.empty() && std::ranges::all_of(body.name, [](unsigned char letter) {
+      return std::isalnum(letter) || letter == '_' || letter == '-';
+    });
+    if (!plain) {
+      fail(c, key + ".name", fmt::format("= \"{}\" is no plain name; expected letters, digits, _ and -", body.name));
+    }
+    for (std::size_t j = 0; j < i; ++j) {
+      if (c.bodies[j].name == body.name) fail(c, key + ".name", "is given to two bodies");
+    }
+    const auto [low, high] = body.structure.volume_ratio;
+    if (low >= 1.0 || high <= 1.0) {
+      fail(c, key + ".volume_ratio",
+           fmt::format("= {} does not enclose 1, the undeformed state", write_value(body.structure.volume_ratio)));
+    }
+  }
+}
+
+void check_results(const Case& c) {
+  const auto [begin, end] = c.results.stable_window;
+  if (begin < 0.0 || end <= begin || end > c.end * (1.0 + 1e-9)) {
+    fail(c, "results.stable_window",
+         fmt::format("= {} does not lie within the run, 0 to {} s (time.end)", write_value(c.results.stable_window),
+                     c.end));
+  }
+  std::vector<std::string> bodies;
+  for (const Body& body : c.bodies) bodies.push_back(body.name);
+  if (!c.bodies.empty() && std::ranges::find(bodies, c.results.body) == bodies.end()) {
+    fail(c, "results.body",
+         fmt::format("= \"{}\" is not the name of a body{}", c.results.body, did_you_mean(c.results.body, bodies)));
+  }
+  const std::vector<std::string> names = result_names();
+  for (const Reference& reference : c.references) {
+    const std::string key = "reference." + reference.name;
+    if (std::ranges::find(names, reference.name) == names.end()) {
+      fail(c, key, fmt::format("is not the name of a result{}", did_you_mean(reference.name, names)));
+    }
+    if (reference.value == 0.0) fail(c, key + ".value", "= 0; a relative difference from zero says nothing");
+  }
+}
+
+}  // namespace
+
+void fail(const Case& c, const std::string& key, const std::string& message) {
+  std::string known = key;
+  while (!c.origin.contains(known) && known.find('.') != std::string::npos) known.resize(known.rfind('.'));
+  const auto origin = c.origin.find(known);
+  throw InputError(fmt::format("{}: {} {}", origin == c.origin.end() ? c.file.string() : origin->second, key, message));
+}
+
+void check_case(const Case& c) {
+  check_domain(c);
+  check_grid(c);
+  check_fluid(c);
+  check_bodies(c);
+  check_results(c);
+}
+
+void check_body_in_grid(const Case& c, const Body& body, const fem::HexMesh& mesh, const amr::Forest& forest) {
+  const std::string key = "body." + body.name;
+  const double finest = std::ldexp(c.domain.coarsest, -level_of(c.domain.coarsest, c.finest));
+  for (const Vec3& node : mesh.nodes) {
+    if (!c.domain.box.contains(node)) {
+      fail(c, key + ".mesh", fmt::format("lies outside the domain: its node at {} m", write_value(node)));
+    }
+    for (int corner = 0; corner < 8; ++corner) {
+      const Vec3 sign(corner & 1 ? 1 : -1, corner & 2 ? 1 : -1, corner & 4 ? 1 : -1);
+      const auto place = forest.locate(node + delta_margin * finest * sign);
+      if (!place) {
+        fail(c, key + ".mesh",
+             fmt::format("comes within {} cells of a side of the domain: its node at {} m", delta_margin,
+                         write_value(node)));
+      }
+      const int level = forest.block(place->block).level;
+      if (level == level_of(c.domain.coarsest, c.finest)) continue;
+      fail(c, key + ".mesh",
+           fmt::format(
+               "does not lie in cells of grid.finest = {} m with {} cells around it: its node at {} m meets cells "
+               "of {} m; widen a grid.region",
+               c.finest, delta_margin, write_value(node), forest.spacing(level)));
+    }
+  }
+}
+
+}  // namespace drogue::app

@@ -1,0 +1,354 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "app/case_reader.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "app/case_checks.hpp"
+#include "app/section.hpp"
+#include "app/value.hpp"
+#include "core/error.hpp"
+
+namespace drogue::app {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+const Choices<fluid::Boundary> boundaries{{"velocity", fluid::Boundary::velocity},
+                                          {"outlet", fluid::Boundary::outlet},
+                                          {"free_slip", fluid::Boundary::free_slip},
+                                          {"no_slip", fluid::Boundary::no_slip},
+                                          {"periodic", fluid::Boundary::periodic}};
+const Choices<int> axes{{"x", 0}, {"y", 1}, {"z", 2}};
+const Choices<fsi::Scheme> schemes{{"added_mass", fsi::Scheme::added_mass}, {"peskin", fsi::Scheme::peskin}};
+const Choices<ib::Delta> deltas{{"peskin4", ib::Delta::peskin4}, {"peskin3", ib::Delta::peskin3}};
+
+/// A default that follows from other values: none to tell of while describing.
+template <class T>
+std::optional<T> derived(const Section& section, const T& value) {
+  return section.describing() ? std::nullopt : std::optional(value);
+}
+
+fluid::Face read_face(Section face) {
+  fluid::Face result;
+  result.type = face.choose("type", boundaries, {.doc = "what happens at this side"});
+  const bool all = face.describing();
+  const Formulas rest{};
+  if (all || result.type == fluid::Boundary::velocity) {
+    result.velocity = face.get<Formulas>("velocity", {.unit = "m/s", .doc = "of the flow; for type = \"velocity\""});
+    result.ramp = face.get<double>(
+        "ramp",
+        {.unit = "s", .doc = "time over which the velocity rises from zero", .fallback = 0.0, .range = not_negative});
+  } else if (result.type == fluid::Boundary::no_slip) {
+    result.velocity = face.get<Formulas>("velocity", {.unit = "m/s", .doc = "of the wall", .fallback = rest});
+  }
+  if (all || result.type == fluid::Boundary::outlet) {
+    result.pressure = face.get<double>("pressure", {.unit = "Pa", .doc = "gauge, at an outlet", .fallback = 0.0});
+    result.sponge = face.get<double>("sponge", {.unit = "m",
+                                                .doc = "depth of the damping layer before an outlet; 0 for none",
+                                                .fallback = 0.0,
+                                                .range = not_negative});
+  }
+  return result;
+}
+
+void read_domain(Section domain, Case& c) {
+  c.domain.box.lower = domain.get<Vec3>("lower", {.unit = "m", .doc = "corner with the smallest coordinates"});
+  c.domain.box.upper = domain.get<Vec3>("upper", {.unit = "m", .doc = "corner with the largest coordinates"});
+  for (int face = 0; face < 6; ++face) {
+    c.fluid.face[face] = read_face(domain.section(face_names[face], "one of the six sides of the domain"));
+  }
+  for (int axis = 0; axis < 3; ++axis) {
+    c.domain.periodic[axis] = c.fluid.face[2 * axis].type == fluid::Boundary::periodic;
+  }
+}
+
+void read_initial_state(Section& section, Case& c) {
+  const bool uniform =
+      section.choose<bool>("initial", {{"uniform", true}, {"rest", false}},
+                           {.doc = "start from initial_velocity, or from rest", .fallback = "uniform"});
+  Formulas inflow{};
+  for (const fluid::Face& face : c.fluid.face) {
+    if (face.type == fluid::Boundary::velocity) {
+      inflow = face.velocity;
+      break;
+    }
+  }
+  if (uniform || section.describing()) {
+    c.fluid.initial_velocity = section.get<Formulas>(
+        "initial_velocity", {.unit = "m/s",
+                             .doc = "at t = 0, with initial = \"uniform\"; by default that of the first velocity side",
+                             .fallback = derived(section, inflow)});
+  }
+  c.fluid.initial_pressure =
+      section.find<Expression>("initial_pressure", {.unit = "Pa", .doc = "gauge, at t = 0; zero if absent"});
+}
+
+void read_fluid(Section section, Case& c) {
+  fluid::Specification& fluid = c.fluid;
+  c.solver = section.choose<std::string>("solver", {{"lbm", "lbm"}}, {.doc = "lattice Boltzmann", .fallback = "lbm"});
+  fluid.density = section.get<double>("density", {.unit = "kg/m^3", .doc = "mass density", .range = positive});
+  fluid.reference_velocity = section.get<double>(
+      "reference_velocity",
+      {.unit = "m/s", .doc = "of the drag coefficient, and what lattice_velocity stands for", .range = positive});
+  const Key<double> length{.unit = "m", .doc = "of the Reynolds number; needed with fluid.reynolds", .range = positive};
+  c.reference_length = section.has("reynolds") ? section.get<double>("reference_length", length)
+                                               : section.find<double>("reference_length", length).value_or(0.0);
+  const auto reynolds = section.find<double>(
+      "reynolds", {.doc = "reference_velocity reference_length / viscosity, instead of viscosity", .range = positive});
+  std::optional<double> viscosity;
+  if (reynolds) viscosity = fluid.reference_velocity * c.reference_length / *reynolds;
+  fluid.viscosity = section.get<double>(
+      "viscosity",
+      {.unit = "m^2/s", .doc = "kinematic; or give fluid.reynolds", .fallback = viscosity, .range = positive});
+  if (viscosity && std::abs(fluid.viscosity / *viscosity - 1.0) > 1e-6) {
+    section.fail("viscosity", fmt::format("= {} contradicts fluid.reynolds = {}, which makes it {}; give one of them",
+                                          fluid.viscosity, *reynolds, *viscosity));
+  }
+  fluid.lattice_velocity = section.get<double>(
+      "lattice_velocity",
+      {.doc =
+           "cells that reference_velocity crosses in a time step; sets the step and the Mach number, sqrt(3) times it",
+       .fallback = 0.05,
+       .range = positive});
+  fluid.hrr_sigma = section.get<double>("hrr_sigma", {.doc = "share of the regularised stress; the rest is its "
+                                                             "finite-difference estimate, which stabilises",
+                                                      .fallback = 0.98,
+                                                      .range = {.min = 0.0, .max = 1.0}});
+  read_initial_state(section, c);
+}
+
+void read_grid(Section grid, Case& c) {
+  c.domain.coarsest = grid.get<double>("coarsest", {.unit = "m", .doc = "cell edge of level 0", .range = positive});
+  c.finest = grid.get<double>("finest", {.unit = "m", .doc = "smallest cell edge: coarsest / 2^n", .range = positive});
+  grid.each("region", "where the grid is fine: a box, or around a body", [&](Section& region) {
+    Region& r = c.regions.emplace_back();
+    const bool all = region.describing();
+    r.spacing = region.get<double>("spacing", {.unit = "m",
+                                               .doc = "cell edge there; by default grid.finest",
+                                               .fallback = derived(region, c.finest),
+                                               .range = positive});
+    r.box = region.find<Box>("box", {.unit = "m", .doc = "the region, instead of body"});
+    if (all || !r.box) {
+      r.body = region.get<std::string>("body", {.doc = "name of the body the region surrounds, instead of box"});
+      r.distance = region.get<double>("distance", {.unit = "m", .doc = "from the body", .range = positive});
+      r.sweep = region.get<Vec3>(
+          "sweep", {.unit = "m", .doc = "the way the body will move, included", .fallback = Vec3(0.0, 0.0, 0.0)});
+    }
+  });
+}
+
+fem::PlateDescription read_plate(Section mesh) {
+  fem::PlateDescription plate;
+  mesh.choose<int>("type", {{"plate", 0}}, {.doc = "shape of a generated mesh"});
+  plate.centre = mesh.get<Vec3>("centre", {.unit = "m", .doc = "of the mid-surface"});
+  plate.normal = mesh.choose("normal", axes, {.doc = "axis the plate is thin in"});
+  plate.size = mesh.get<Pair>(
+      "size", {.unit = "m", .doc = "edges, along the axes that follow the normal cyclically", .range = positive});
+  plate.thickness = mesh.get<double>("thickness", {.unit = "m", .doc = "along the normal", .range = positive});
+  plate.elements = mesh.get<Index3>(
+      "elements", {.doc = "along the two edges and through the thickness", .range = {.min = 1, .max = 100000}});
+  return plate;
+}
+
+fs::path read_mesh_file(Section& body) {
+  const fs::path file = body.get<fs::path>("mesh", {.doc = "mesh of hexahedra: .msh (gmsh 4.1), .geo, or a table"});
+  if (!fs::is_regular_file(file)) body.fail("mesh", fmt::format("= \"{}\" does not exist", file.string()));
+  if (file.extension() != ".msh" && file.extension() != ".geo") {
+    body.fail("mesh", fmt::format("= \"{}\" is no mesh; expected a file .msh or .geo", file.string()));
+  }
+  return file;
+}
+
+std::variant<fem::PlateDescription, fs::path> read_mesh(Section& body) {
+  const bool is_file = !body.has_table("mesh");
+  fs::path file;
+  if (is_file || body.describing()) file = read_mesh_file(body);
+  if (is_file && !body.describing()) return file;
+  return read_plate(body.section("mesh", "a generated mesh, instead of a file"));
+}
+
+fem::Material read_material(Section section) {
+  const bool neo_hookean = section.choose<bool>("law", {{"neo_hookean", true}, {"saint_venant_kirchhoff", false}},
+                                                {.doc = "hyperelastic law"});
+  const Range ratio{.min = -1.0, .max = 0.5, .open = true};
+  const double young = section.get<double>("young", {.unit = "Pa", .doc = "Young's modulus", .range = positive});
+  const double poisson = section.get<double>("poisson", {.doc = "Poisson's ratio", .range = ratio});
+  double stabilisation = poisson;
+  if (neo_hookean || section.describing()) {
+    stabilisation = section.get<double>(
+        "poisson_stabilisation",
+        {.doc = "ratio behind the bulk modulus, for law = \"neo_hookean\"; by default that of poisson",
+         .fallback = derived(section, poisson),
+         .range = ratio});
+  }
+  if (section.describing()) return fem::SaintVenantKirchhoff(1.0, 0.0);
+  if (neo_hookean) return fem::NeoHookean(young, poisson, stabilisation);
+  return fem::SaintVenantKirchhoff(young, poisson);
+}
+
+HoldDescription read_hold(Section& section) {
+  HoldDescription hold;
+  const bool all = section.describing();
+  hold.nodes =
+      section.get<std::string>("nodes", {.doc = "\"corners\", \"all\", or the name of a node set of the mesh"});
+  if (all || hold.nodes == "corners") {
+    hold.patch = section.get<double>("patch", {.unit = "m",
+                                               .doc = "edge of the held corner, for nodes = \"corners\"; 0 holds the "
+                                                      "corner nodes alone",
+                                               .fallback = 0.0,
+                                               .range = not_negative});
+  }
+  hold.rigid = section.get<bool>("rigid", {.doc = "hold in place instead of by a tether", .fallback = false});
+  if (all || !hold.rigid) {
+    hold.stiffness = section.get<double>(
+        "stiffness", {.unit = "N/m^4", .doc = "of the tether, per displacement and volume", .range = positive});
+    hold.damping = section.get<double>(
+        "damping",
+        {.unit = "N s/m^4", .doc = "of the tether, per velocity and volume", .fallback = 0.0, .range = not_negative});
+  }
+  return hold;
+}
+
+fem::StructureOptions read_structure(Section& body) {
+  fem::StructureOptions options;
+  options.density =
+      body.get<double>("density", {.unit = "kg/m^3", .doc = "own mass", .range = positive});
+  options.dissipation = body.get<double>("dissipation", {.doc = "numerical, of what the sub-step barely resolves",
+                                                         .fallback = options.dissipation,
+                                                         .range = {.min = 0.0, .max = 0.49}});
+  options.safety = body.get<double>("safety", {.doc = "share of the stable sub-step that is used",
+                                               .fallback = options.safety,
+                                               .range = {.min = 0.01, .max = 1.0}});
+  options.volume_ratio = body.get<Pair>(
+      "volume_ratio",
+      {.doc = "bounds of J; an element beyond them ends the run", .fallback = options.volume_ratio, .range = positive});
+  return options;
+}
+
+fsi::CouplingOptions read_coupling(Section section) {
+  fsi::CouplingOptions options;
+  options.scheme = section.choose("scheme", schemes, {.doc = "how body and fluid meet", .fallback = "added_mass"});
+  options.delta = section.choose("delta", deltas, {.doc = "regularised delta function", .fallback = "peskin4"});
+  return options;
+}
+
+Body read_body(Section& section, double fluid_density) {
+  const std::string name = section.get<std::string>("name", {.doc = "for keys, messages and columns"});
+  const auto mesh = read_mesh(section);
+  const fem::StructureOptions structure = read_structure(section);
+  std::optional<double> area;
+  if (const auto* plate = std::get_if<fem::PlateDescription>(&mesh)) {
+    area = derived(section, plate->size[0] * plate->size[1]);
+  }
+  const double reference_area =
+      section.get<double>("reference_area", {.unit = "m^2",
+                                             .doc = "of the drag coefficient; by default that of a plate",
+                                             .fallback = area,
+                                             .range = positive});
+  Body body{.name = name,
+            .mesh = mesh,
+            .material = read_material(section.section("material", "what the body is made of")),
+            .structure = structure,
+            .holds = {},
+            .reference_area = reference_area,
+            .coupling = read_coupling(section.section("coupling", "between body and fluid"))};
+  section.each("hold", "nodes that are held near where they start",
+               [&](Section& hold) { body.holds.push_back(read_hold(hold)); });
+  body.coupling.fluid_density = fluid_density;
+  body.coupling.body = name;
+  return body;
+}
+
+void read_output(Section section, Case& c) {
+  const auto interval = [&](const std::string& name, const std::string& doc, double fallback) {
+    return section.get<double>(name, {.unit = "s", .doc = doc, .fallback = fallback, .range = not_negative});
+  };
+  c.output.history = interval("history", "between rows of history.csv; 0 for every coarse step", 0.0);
+  c.output.fluid = interval("fluid", "between snapshots of the flow; 0 for none", 0.0);
+  c.output.canopy = interval("canopy", "between snapshots of the bodies; 0 for none", 0.0);
+}
+
+void read_results(Section section, Case& c) {
+  const std::string first = c.bodies.empty() ? "" : c.bodies.front().name;
+  c.results.body = section.get<std::string>(
+      "body", {.doc = "whose results are summarised; by default the first", .fallback = derived(section, first)});
+  c.results.stable_window =
+      section
+          .find<Pair>("stable_window", {.unit = "s",
+                                        .doc = "over which stable values are averaged; by default the second half",
+                                        .fallback = derived(section, Pair{0.5 * c.end, c.end})})
+          .value_or(Pair{});
+  c.results.peak_from = section.get<double>("peak_from", {.unit = "s",
+                                                          .doc = "peaks before it are not counted: an impulsive "
+                                                                 "start is no peak",
+                                                          .fallback = 0.0,
+                                                          .range = not_negative});
+}
+
+void read_reference(const std::string& name, Section& section, Case& c) {
+  Reference reference;
+  reference.name = name;
+  reference.value = section.get<double>("value", {.doc = "published value of the result of this name, in SI"});
+  reference.within = section.get<double>(
+      "within", {.doc = "relative difference up to which they agree", .fallback = 0.1, .range = positive});
+  reference.source = section.get<std::string>("source", {.doc = "where it is published", .fallback = ""});
+  c.references.push_back(reference);
+}
+
+Case read_all(const Document& document, Record& record) {
+  Case c;
+  Section root(document, record);
+  c.title = root.get<std::string>("title", {.doc = "one line on what the case is", .fallback = ""});
+  if (root.describing()) root.find<std::string>("base", {.doc = "another case file that this one completes"});
+  read_domain(root.section("domain", "the box of fluid"), c);
+  read_fluid(root.section("fluid", "the fluid and its solver"), c);
+  read_grid(root.section("grid", "the block-refined grid"), c);
+  root.each("body", "a body in the flow", [&](Section& body) { c.bodies.push_back(read_body(body, c.fluid.density)); });
+  Section time = root.section("time", "the run");
+  c.end = time.get<double>("end", {.unit = "s", .doc = "the run starts at 0", .range = positive});
+  read_output(root.section("output", "what is written, and when"), c);
+  read_results(root.section("results", "what is summarised at the end"), c);
+  root.section("reference", "published results")
+      .each_named("one published number, named like the result it is compared with",
+                  [&](const std::string& name, Section& section) { read_reference(name, section, c); });
+  return c;
+}
+
+fs::path case_file(const fs::path& path) {
+  if (fs::is_directory(path)) {
+    const fs::path file = path / "case.toml";
+    if (!fs::exists(file)) throw InputError(fmt::format("{} holds no case.toml", path.string()));
+    return file;
+  }
+  if (!fs::exists(path)) throw InputError(fmt::format("{} does not exist; expected a case folder", path.string()));
+  return path;
+}
+
+}  // namespace
+
+Record describe_case() {
+  Record record;
+  record.describing = true;
+  read_all({}, record);
+  return record;
+}
+
+Case read_case(const fs::path& path, const std::vector<std::string>& overrides) {
+  const Record schema = describe_case();
+  const Document document = load_document(case_file(path).lexically_normal(), overrides);
+  refuse_unknown_keys(document, schema);
+  Record record;
+  Case c = read_all(document, record);
+  refuse_unread_keys(document, record, schema);
+  c.file = document.file;
+  c.name = fs::absolute(document.file).parent_path().filename();
+  c.origin = record.origin;
+  c.resolved = to_toml(record);
+  check_case(c);
+  return c;
+}
+
+}  // namespace drogue::app

@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Where the wall time of a run goes.
+#pragma once
+
+#include <chrono>
+
+namespace drogue {
+
+/// Adds up the wall time between `start` and `stop`.
+class Stopwatch {
+ public:
+  void start() { started_ = Clock::now(); }
+  void stop() { total_ += Clock::now() - started_; }
+  double seconds() const { return std::chrono::duration<double>(total_).count(); }
+
+ private:
+  using Clock = std::chrono::steady_clock;
+  Clock::time_point started_{};
+  Clock::duration total_{};
+};
+
+/// Runs a stopwatch from here to the end of the scope.
+class Timed {
+ public:
+  explicit Timed(Stopwatch& watch) : watch_(watch) { watch_.start(); }
+  ~Timed() { watch_.stop(); }
+  Timed(const Timed&) = delete;
+  Timed& operator=(const Timed&) = delete;
+
+ private:
+  Stopwatch& watch_;
+};
+
+/// Wall time since construction [s].
+class Elapsed {
+ public:
+  double seconds() const { return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin_).count(); }
+
+ private:
+  std::chrono::steady_clock::time_point begin_ = std::chrono::steady_clock::now();
+};
+
+}  // namespace drogue

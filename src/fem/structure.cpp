@@ -1,0 +1,256 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "fem/structure.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/error.hpp"
+#include "fem/hex_topology.hpp"
+#include "fem/structure_data.hpp"
+
+namespace drogue::fem {
+namespace {
+
+StructureOptions checked(const StructureOptions& options) {
+  const auto& [density, dissipation, safety, ratio] = options;
+  if (!(density > 0.0 && std::isfinite(density))) {
+    throw InputError(
+        fmt::format("the structure's density is {} kg/m^3; expected a positive number (of a massless solid: that of "
+                    "what surrounds it)",
+                    density));
+  }
+  // From 0.5 on a stiff tether would be unstable.
+  if (!(dissipation >= 0.0 && dissipation < 0.5)) {
+    throw InputError(
+        fmt::format("the structure's dissipation is {}; expected at least 0 and less than 0.5", dissipation));
+  }
+  if (!(safety > 0.0 && safety <= 1.0)) {
+    throw InputError(
+        fmt::format("the safety of the structure's stable step is {}; expected more than 0, at most 1", safety));
+  }
+  if (!(ratio[0] > 0.0 && ratio[0] < 1.0 && ratio[1] > 1.0)) {
+    throw InputError(fmt::format("the bounds of the volume ratio are {} and {}; expected 0 < lower < 1 < upper",
+                                 ratio[0], ratio[1]));
+  }
+  return options;
+}
+
+std::vector<const Hold*> hold_of_each_node(const std::vector<Hold>& holds, std::size_t nodes) {
+  std::vector<const Hold*> of_node(nodes, nullptr);
+  for (const Hold& hold : holds) {
+    if (!(hold.stiffness >= 0.0 && hold.damping >= 0.0)) {
+      throw InputError(
+          fmt::format("a hold has stiffness {} N/m^4 and damping {} N s/m^4; expected neither to be negative",
+                      hold.stiffness, hold.damping));
+    }
+    for (const int node : hold.nodes) {
+      if (node < 0 || static_cast<std::size_t>(node) >= nodes) {
+        throw InputError(fmt::format("a hold names node {}; expected 0 to {}", node, nodes - 1));
+      }
+      if (of_node[node] != nullptr && of_node[node] != &hold) {
+        throw InputError(fmt::format("node {} belongs to two holds; expected at most one", node));
+      }
+      of_node[node] = &hold;
+    }
+  }
+  return of_node;
+}
+
+std::vector<double> scaled(std::vector<double> values, double factor) {
+  for (double& value : values) value *= factor;
+  return values;
+}
+
+Inertia every_node_alone(const std::vector<double>& own_mass) {
+  Inertia inertia{{}, own_mass};
+  for (int node = 0; node < static_cast<int>(own_mass.size()); ++node) inertia.point.push_back({node, -1});
+  return inertia;
+}
+
+void check_partition(const Inertia& inertia, std::size_t nodes) {
+  if (inertia.mass.size() != inertia.point.size()) {
+    throw InputError(fmt::format("the inertia has {} points and {} masses; expected as many", inertia.point.size(),
+                                 inertia.mass.size()));
+  }
+  std::vector<int> uses(nodes, 0);
+  for (std::size_t i = 0; i < inertia.point.size(); ++i) {
+    const auto [a, b] = inertia.point[i];
+    const int last = static_cast<int>(nodes) - 1;
+    if (a < 0 || a > last || b < -1 || b > last) {
+      throw InputError(fmt::format("point {} joins nodes {} and {}; expected numbers from 0 to {}", i, a, b, last));
+    }
+    if (!(inertia.mass[i] > 0.0 && std::isfinite(inertia.mass[i]))) {
+      throw InputError(
+          fmt::format("point {} (node {}) has mass {} kg; expected a positive number", i, a, inertia.mass[i]));
+    }
+    ++uses[a];
+    if (b >= 0) ++uses[b];
+  }
+  for (std::size_t node = 0; node < nodes; ++node) {
+    if (uses[node] != 1) {
+      throw InputError(fmt::format("node {} belongs to {} points; expected exactly one", node, uses[node]));
+    }
+  }
+}
+
+}  // namespace
+
+Structure::Data::Data(HexMesh m, const Material& material, const StructureOptions& o, std::vector<Hold> h)
+    : mesh(std::move(m)),
+      options(checked(o)),
+      holds(std::move(h)),
+      hold_of_node(hold_of_each_node(holds, mesh.nodes.size())),
+      elements(mesh, material, options.volume_ratio),
+      own_mass(scaled(elements.nodal_volume(), options.density)),
+      x(mesh.nodes),
+      v(mesh.nodes.size(), Vec3::Zero()),
+      stiffness_bounds(mesh.elements.size()) {
+  assign_points(every_node_alone(own_mass));
+}
+
+void Structure::Data::assign_points(Inertia new_inertia) {
+  check_partition(new_inertia, mesh.nodes.size());
+  const auto& volume = elements.nodal_volume();
+  std::vector<Point> new_points;
+  for (std::size_t i = 0; i < new_inertia.point.size(); ++i) {
+    const auto [a, b] = new_inertia.point[i];
+    const double mass = new_inertia.mass[i];
+    if (b < 0) {
+      new_points.push_back({a, b, 1.0, 0.0, {mass, volume[a]}, {}, hold_of_node[a]});
+      continue;
+    }
+    if (hold_of_node[a] != hold_of_node[b]) {
+      throw InputError(fmt::format(
+          "nodes {} and {} face each other but are not held alike; expected both or neither in a hold", a, b));
+    }
+    const double both = volume[a] + volume[b], reduced = volume[a] * volume[b] / both;
+    new_points.push_back({a,
+                          b,
+                          volume[a] / both,
+                          volume[b] / both,
+                          {mass, both},
+                          {options.density * reduced, reduced},
+                          hold_of_node[a]});
+  }
+  inertia = std::move(new_inertia);
+  points = std::move(new_points);
+  hold_impulse.assign(points.size(), Vec3::Zero());
+  compare_masses();
+  estimate_largest_frequency();
+}
+
+// An element strains along its thickness by differences of pairs alone, which keep the own mass, and along its sides by
+// means and by differences. These count there at most half as much (the mode xi zeta has a third of the squared
+// gradient of zeta along xi and a third along zeta), so that a mean lightens the sides down to half.
+void Structure::Data::compare_masses() {
+  std::vector<int> partner(mesh.nodes.size(), -1);
+  std::vector<double> ratio(mesh.nodes.size());
+  for (const Point& p : points) {
+    ratio[p.a] = p.mean.mass / (options.density * p.mean.volume);
+    if (!p.is_pair()) continue;
+    ratio[p.b] = ratio[p.a];
+    partner[p.a] = p.b;
+    partner[p.b] = p.a;
+  }
+  lightness.clear();
+  for (const auto& element : mesh.elements) {
+    const auto joins_pair = [&](const auto& edge) { return partner[element[edge[0]]] == element[edge[1]]; };
+    const auto thickness = std::find_if(std::begin(hex_edge), std::end(hex_edge), [&](const auto& edges) {
+      return std::all_of(std::begin(edges), std::end(edges), joins_pair);
+    });
+    const bool thin = thickness != std::end(hex_edge);
+    double smallest = thin ? 2.0 : INFINITY;
+    for (const int node : element) {
+      smallest = std::min({smallest, ratio[node], thin || partner[node] < 0 ? INFINITY : 1.0});
+    }
+    lightness.push_back({1.0 / smallest, 1.0 / smallest, 1.0 / smallest});
+    if (thin) lightness.back()[thickness - std::begin(hex_edge)] = 1.0;
+  }
+}
+
+Structure::Structure(HexMesh mesh, const Material& material, const StructureOptions& options, std::vector<Hold> holds)
+    : data_(std::make_unique<Data>(std::move(mesh), material, options, std::move(holds))) {}
+Structure::~Structure() = default;
+Structure::Structure(Structure&&) noexcept = default;
+
+const HexMesh& Structure::mesh() const { return data_->mesh; }
+std::span<const Vec3> Structure::position() const { return data_->x; }
+std::span<const Vec3> Structure::velocity() const { return data_->v; }
+std::span<const double> Structure::own_mass() const { return data_->own_mass; }
+std::span<const double> Structure::volume() const { return data_->elements.nodal_volume(); }
+
+void Structure::set_state(std::span<const Vec3> position, std::span<const Vec3> velocity) {
+  data_->x.assign(position.begin(), position.end());
+  data_->v.assign(velocity.begin(), velocity.end());
+  data_->estimate_largest_frequency();
+}
+
+void Structure::set_inertia(Inertia inertia) { data_->assign_points(std::move(inertia)); }
+const Inertia& Structure::inertia() const { return data_->inertia; }
+
+void Structure::set_mean_velocity(int point, const Vec3& v) {
+  const Point& p = data_->points[point];
+  const Vec3 shift = v - p.mean_of(data_->v);
+  data_->v[p.a] += shift;
+  if (p.is_pair()) data_->v[p.b] += shift;
+}
+
+Vec3 Structure::mean_position(int point) const { return data_->points[point].mean_of(data_->x); }
+Vec3 Structure::mean_velocity(int point) const { return data_->points[point].mean_of(data_->v); }
+
+int Structure::substeps() const { return data_->substeps; }
+double Structure::largest_frequency() const { return data_->largest_frequency; }
+Vec3 Structure::reaction() const { return data_->reaction; }
+
+void Structure::internal_force(std::span<const Vec3> position, std::span<Vec3> force) const {
+  HexElements& elements = data_->elements;
+#pragma omp parallel
+  {
+    elements.compute_forces(position);
+#pragma omp for schedule(static)
+    for (std::size_t node = 0; node < force.size(); ++node) force[node] = elements.nodal_force(static_cast<int>(node));
+  }
+}
+
+double Structure::elastic_energy() const { return data_->elements.elastic_energy(data_->x); }
+
+double Structure::kinetic_energy() const {
+  double twice = 0.0;
+  for (const Point& p : data_->points) {
+    twice += p.mean.mass * p.mean_of(data_->v).squaredNorm();
+    if (p.is_pair()) twice += p.difference.mass * (data_->v[p.a] - data_->v[p.b]).squaredNorm();
+  }
+  return 0.5 * twice;
+}
+
+std::array<double, 2> Structure::volume_ratio_range() const { return data_->elements.volume_ratio_range(data_->x); }
+
+std::array<double, 2> Structure::face_velocity_difference() const {
+  double along = 0.0, full = 0.0;
+  int pairs = 0;
+  for (const Point& p : data_->points) {
+    if (!p.is_pair()) continue;
+    const Vec3 difference = data_->v[p.a] - data_->v[p.b];
+    const double closing = difference.dot((data_->x[p.a] - data_->x[p.b]).normalized());
+    along += closing * closing;
+    full += difference.squaredNorm();
+    ++pairs;
+  }
+  if (pairs == 0) return {0.0, 0.0};
+  return {std::sqrt(along / pairs), std::sqrt(full / pairs)};
+}
+
+double Structure::mean_thickness_stretch() const {
+  double sum = 0.0;
+  int pairs = 0;
+  for (const Point& p : data_->points) {
+    if (!p.is_pair()) continue;
+    sum += (data_->x[p.a] - data_->x[p.b]).norm() / (data_->mesh.nodes[p.a] - data_->mesh.nodes[p.b]).norm();
+    ++pairs;
+  }
+  return pairs == 0 ? 1.0 : sum / pairs;
+}
+
+}  // namespace drogue::fem

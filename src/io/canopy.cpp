@@ -1,0 +1,117 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "io/canopy.hpp"
+
+#include <fmt/format.h>
+
+#include <cstdint>
+#include <cstring>
+#include <numeric>
+#include <stdexcept>
+#include <string_view>
+
+#include "io/pending_file.hpp"
+
+namespace drogue::io {
+namespace {
+
+constexpr std::uint8_t vtk_hexahedron = 12;
+
+template <class T>
+constexpr std::string_view vtk_type = "";
+template <>
+constexpr std::string_view vtk_type<double> = "Float64";
+template <>
+constexpr std::string_view vtk_type<std::int32_t> = "Int32";
+template <>
+constexpr std::string_view vtk_type<std::uint8_t> = "UInt8";
+
+/// The XML that describes the arrays, and the raw bytes behind it: each array preceded by its length as UInt64.
+class AppendedArrays {
+ public:
+  template <class T>
+  std::string add(std::string_view name, int components, std::span<const T> values, std::string_view extra = "") {
+    const std::string element =
+        fmt::format(R"(<DataArray type="{}" Name="{}" NumberOfComponents="{}"{} format="appended" offset="{}"/>)",
+                    vtk_type<T>, name, components, extra, bytes_.size());
+    const std::uint64_t length = values.size_bytes();
+    append(&length, sizeof length);
+    append(values.data(), length);
+    return element;
+  }
+  std::string add(std::string_view name, std::span<const Vec3> vectors) {
+    static_assert(sizeof(Vec3) == 3 * sizeof(double));
+    return add(name, 3,
+               std::span<const double>(vectors.empty() ? nullptr : vectors.front().data(), 3 * vectors.size()));
+  }
+  std::string_view bytes() const { return bytes_; }
+
+ private:
+  void append(const void* data, std::size_t length) { bytes_.append(static_cast<const char*>(data), length); }
+  std::string bytes_;
+};
+
+std::string escaped(std::string_view name) {
+  std::string text;
+  for (char c : name) {
+    if (c == '&')
+      text += "&amp;";
+    else if (c == '<')
+      text += "&lt;";
+    else if (c == '"')
+      text += "&quot;";
+    else
+      text += c;
+  }
+  return text;
+}
+
+void check_length(std::size_t length, std::size_t expected, std::string_view what) {
+  if (length != expected) throw std::invalid_argument(fmt::format("{} values of {} for {}", length, what, expected));
+}
+
+}  // namespace
+
+void write_canopy(const std::filesystem::path& file, const fem::HexMesh& mesh, std::span<const Vec3> position,
+                  std::span<const Vec3> velocity, const std::map<std::string, std::vector<double>>& cell_data,
+                  std::optional<double> time) {
+  const std::size_t nodes = mesh.nodes.size(), elements = mesh.elements.size();
+  check_length(position.size(), nodes, "position");
+  check_length(velocity.size(), nodes, "velocity");
+
+  std::vector<Vec3> displacement(nodes);
+  for (std::size_t n = 0; n < nodes; ++n) displacement[n] = position[n] - mesh.nodes[n];
+  std::vector<std::int32_t> connectivity;
+  for (const auto& element : mesh.elements) connectivity.insert(connectivity.end(), element.begin(), element.end());
+  std::vector<std::int32_t> offsets(elements);
+  for (std::size_t e = 0; e < elements; ++e) offsets[e] = static_cast<std::int32_t>(8 * (e + 1));
+  const std::vector<std::uint8_t> types(elements, vtk_hexahedron);
+
+  AppendedArrays arrays;
+  std::string xml =
+      "<?xml version=\"1.0\"?>\n"
+      "<VTKFile type=\"UnstructuredGrid\" version=\"1.0\" byte_order=\"LittleEndian\" header_type=\"UInt64\">\n"
+      "<UnstructuredGrid>\n";
+  if (time) {
+    const std::span<const double> value(&*time, 1);
+    xml += fmt::format("<FieldData>{}</FieldData>\n", arrays.add("TimeValue", 1, value, " NumberOfTuples=\"1\""));
+  }
+  xml += fmt::format("<Piece NumberOfPoints=\"{}\" NumberOfCells=\"{}\">\n", nodes, elements);
+  xml += fmt::format("<Points>{}</Points>\n", arrays.add("Points", position));
+  xml += "<Cells>" + arrays.add<std::int32_t>("connectivity", 1, connectivity);
+  xml += arrays.add<std::int32_t>("offsets", 1, offsets) + arrays.add<std::uint8_t>("types", 1, types) + "</Cells>\n";
+  xml += "<PointData Vectors=\"Displacement\">" + arrays.add("Displacement", displacement);
+  xml += arrays.add("Velocity", velocity) + "</PointData>\n<CellData>";
+  for (const auto& [name, values] : cell_data) {
+    check_length(values.size(), elements, name);
+    xml += arrays.add<double>(escaped(name), 1, values);
+  }
+  xml += "</CellData>\n</Piece>\n</UnstructuredGrid>\n<AppendedData encoding=\"raw\">\n_";
+
+  PendingStream stream(file);
+  stream.write(xml);
+  stream.write(arrays.bytes());
+  stream.write("\n</AppendedData>\n</VTKFile>\n");
+  stream.commit();
+}
+
+}  // namespace drogue::io

@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The structure as VTK's XML UnstructuredGrid (.vtu), binary appended, as ParaView and VTK 9 read it.
+#pragma once
+
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "core/types.hpp"
+#include "fem/hex_mesh.hpp"
+
+namespace drogue::io {
+
+/// Writes the mesh at `position` [m] with point data Displacement [m] and Velocity [m/s], and one value per element of
+/// each array of `cell_data`. `time` [s] is stored as the field TimeValue, which ParaView shows. Throws
+/// std::runtime_error naming the file, std::invalid_argument for an array of the wrong length.
+void write_canopy(const std::filesystem::path& file, const fem::HexMesh& mesh, std::span<const Vec3> position,
+                  std::span<const Vec3> velocity, const std::map<std::string, std::vector<double>>& cell_data,
+                  std::optional<double> time = std::nullopt);
+
+}  // namespace drogue::io

@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// ParaView's file series: a JSON list of files with their times, named `fluid.vtkhdf.series`, `canopy.vtu.series`.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace drogue::io {
+
+struct SeriesEntry {
+  std::string name;  ///< relative to the folder of the series
+  double time;       ///< [s]
+};
+
+/// Appends a file. Entries at `time` or later are dropped first, so a resumed run replaces what it computes again.
+/// Throws std::runtime_error naming the series if it cannot be read or written.
+void append_to_series(const std::filesystem::path& series, const std::string& name, double time);
+
+/// Empty if there is no such file.
+std::vector<SeriesEntry> read_series(const std::filesystem::path& series);
+
+}  // namespace drogue::io

@@ -1,0 +1,122 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The D3Q19 lattice between moments and populations, in lattice units, on anything that behaves like a float.
+//
+// Populations are deviations from the weights, f_i - w_i. A post-collision population is the Hermite series
+//   g_i = w_i [ drho + 3 c.j + 9/2 cc:A - 3/2 tr A + third order ],  j = rho u,  A = rho u u + (1 - 1/tau) Pneq,
+// whose third order is what D3Q19 can hold isotropically, with recursive coefficients
+//   a_abc = rho u_a u_b u_c + (1 - 1/tau)(u_a Pneq_bc + u_b Pneq_ac + u_c Pneq_ab).
+// References: Malaspinas, arXiv:1505.06900 (2015); Jacob, Malaspinas & Sagaut, J. Turbul. 19 (2018) 1051.
+#pragma once
+
+#include <array>
+
+#include "lbm/moments.hpp"
+
+namespace drogue::lbm {
+
+/// Is (cx, cy, cz) a velocity of D3Q19?
+constexpr bool in_lattice(int cx, int cy, int cz) { return cx * cx + cy * cy + cz * cz <= 2; }
+
+/// What all populations of a cell share: the coefficients of the series, computed once.
+template <class T>
+struct HermiteSeries {
+  T base;                       // drho - 3/2 tr A
+  std::array<T, 3> normal;      // 9/2 A_aa
+  std::array<T, 3> shear;       // 9 A_ab for (y, z), (x, z), (x, y): named by the axis left out
+  std::array<T, 3> axis;        // odd part of the population along an axis
+  std::array<T, 3> odd_next;    // odd part along a in the diagonals of the plane (a, a + 1)
+  std::array<T, 3> odd_prev;    // odd part along a in the diagonals of the plane (a, a - 1)
+
+  /// `keep` = 1 - 1/tau, the share of Pneq that survives the collision.
+  HermiteSeries(const std::array<T, moments>& m, float keep) {
+    const T rho = 1.0f + m[drho];
+    const std::array<T, 3> u{m[ux], m[uy], m[uz]};
+    const std::array<T, 3> j{rho * u[0], rho * u[1], rho * u[2]};
+    const std::array<T, 3> p{m[pxx], m[pyy], m[pzz]};
+    const std::array<T, 3> s{m[pyz], m[pxz], m[pxy]};
+    std::array<T, 3> a, b, off;
+    for (int i = 0; i < 3; ++i) {
+      const int k = (i + 1) % 3, l = (i + 2) % 3;
+      const T inertia = j[i] * u[i];
+      a[i] = inertia + keep * p[i];
+      b[i] = a[i] - 2.0f * inertia;
+      off[i] = j[k] * u[l] + keep * s[i];
+      normal[i] = 4.5f * a[i];
+      shear[i] = 9.0f * off[i];
+    }
+    base = m[drho] - 1.5f * (a[0] + a[1] + a[2]);
+    for (int i = 0; i < 3; ++i) {
+      const int k = (i + 1) % 3, l = (i + 2) % 3;
+      // a_ikk = u_i (A_kk - 2 rho u_k u_k) + 2 u_k A_ik, and the same with l
+      const T a_ikk = u[i] * b[k] + 2.0f * u[k] * off[l];
+      const T a_ill = u[i] * b[l] + 2.0f * u[l] * off[k];
+      axis[i] = 3.0f * j[i] - 9.0f * (a_ikk + a_ill);
+      odd_next[i] = 3.0f * j[i] + 9.0f * a_ikk;
+      odd_prev[i] = 3.0f * j[i] + 9.0f * a_ill;
+    }
+  }
+
+  /// Post-collision population of velocity c, less its weight.
+  template <int cx, int cy, int cz>
+  T population() const {
+    constexpr std::array<int, 3> c{cx, cy, cz};
+    constexpr int nonzero = cx * cx + cy * cy + cz * cz;
+    if constexpr (nonzero == 0) {
+      return (1.0f / 3.0f) * base;
+    } else if constexpr (nonzero == 1) {
+      constexpr int i = cx ? 0 : cy ? 1 : 2;
+      const T even = base + normal[i];
+      return (1.0f / 18.0f) * (c[i] > 0 ? even + axis[i] : even - axis[i]);
+    } else {
+      constexpr int out = !cx ? 0 : !cy ? 1 : 2;
+      constexpr int i = (out + 1) % 3, k = (out + 2) % 3;
+      const T sum = base + normal[i] + normal[k];
+      const T even = c[i] * c[k] > 0 ? sum + shear[out] : sum - shear[out];
+      const T along_i = c[i] > 0 ? even + odd_next[i] : even - odd_next[i];
+      return (1.0f / 36.0f) * (c[k] > 0 ? along_i + odd_prev[k] : along_i - odd_prev[k]);
+    }
+  }
+};
+
+/// Moments of populations given by `f.template get<cx, cy, cz>()`: drho, u and Pneq.
+template <class T, class Populations>
+std::array<T, moments> moments_of(const Populations& f) {
+  struct Plane {
+    T even, cross, along_first, along_second;   // sums over the four diagonals of one plane
+  };
+  const auto diagonals = [](T pp, T mm, T pm, T mp) {
+    return Plane{(pp + mm) + (pm + mp), (pp + mm) - (pm + mp), (pp - mm) + (pm - mp), (pp - mm) - (pm - mp)};
+  };
+  const Plane xy = diagonals(f.template get<1, 1, 0>(), f.template get<-1, -1, 0>(), f.template get<1, -1, 0>(),
+                             f.template get<-1, 1, 0>());
+  const Plane xz = diagonals(f.template get<1, 0, 1>(), f.template get<-1, 0, -1>(), f.template get<1, 0, -1>(),
+                             f.template get<-1, 0, 1>());
+  const Plane yz = diagonals(f.template get<0, 1, 1>(), f.template get<0, -1, -1>(), f.template get<0, 1, -1>(),
+                             f.template get<0, -1, 1>());
+  const T px = f.template get<1, 0, 0>(), nx = f.template get<-1, 0, 0>();
+  const T py = f.template get<0, 1, 0>(), ny = f.template get<0, -1, 0>();
+  const T pz = f.template get<0, 0, 1>(), nz = f.template get<0, 0, -1>();
+
+  const T xx = (px + nx) + (xy.even + xz.even);
+  const T yy = (py + ny) + (xy.even + yz.even);
+  const T zz = (pz + nz) + (xz.even + yz.even);
+  std::array<T, moments> m;
+  m[drho] = f.template get<0, 0, 0>() + ((px + nx) + (py + ny) + (pz + nz)) + (xy.even + xz.even + yz.even);
+  const T jx = (px - nx) + (xy.along_first + xz.along_first);
+  const T jy = (py - ny) + (xy.along_second + yz.along_first);
+  const T jz = (pz - nz) + (xz.along_second + yz.along_second);
+  const T per_rho = 1.0f / (1.0f + m[drho]);
+  m[ux] = jx * per_rho;
+  m[uy] = jy * per_rho;
+  m[uz] = jz * per_rho;
+  const T pressure = (1.0f / 3.0f) * m[drho];
+  m[pxx] = xx - pressure - jx * m[ux];
+  m[pyy] = yy - pressure - jy * m[uy];
+  m[pzz] = zz - pressure - jz * m[uz];
+  m[pxy] = xy.cross - jx * m[uy];
+  m[pxz] = xz.cross - jx * m[uz];
+  m[pyz] = yz.cross - jy * m[uz];
+  return m;
+}
+
+}  // namespace drogue::lbm

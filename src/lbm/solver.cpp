@@ -1,0 +1,266 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "lbm/solver.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "core/error.hpp"
+
+namespace drogue::lbm {
+namespace {
+
+constexpr int n = amr::block_size;
+constexpr double sound_speed_squared = 1.0 / 3.0;   // cells^2 per step^2
+
+Units units_of(const fluid::Specification& s) {
+  const double velocity = s.reference_velocity / s.lattice_velocity;
+  return {velocity, s.density * velocity * velocity * sound_speed_squared};
+}
+
+}  // namespace
+
+template <class S>
+BasicSolver<S>::BasicSolver(amr::Forest forest, fluid::Specification specification)
+    : forest_(std::move(forest)),
+      specification_(std::move(specification)),
+      units_(units_of(specification_)),
+      field_{MomentField<S>(forest_.size()), MomentField<S>(forest_.size())},
+      fill_boundary_(forest_, specification_, units_),
+      force_(forest_) {
+  levels_.resize(forest_.levels());
+  for (int level = 0; level < forest_.levels(); ++level) {
+    Level& l = levels_[level];
+    const double dx = forest_.spacing(level);
+    l.dt = dx / units_.velocity;
+    l.relaxation = Relaxation::of_viscosity(specification_.viscosity * l.dt / (dx * dx), specification_.hrr_sigma);
+    if (level > 0) l.from_coarser = plan_interpolation(forest_, level);
+    if (level < forest_.finest()) l.to_parents = plan_restriction(forest_, level);
+    build_sponge(level);
+  }
+  initialise();
+  const auto finest = forest_.range(forest_.finest(), amr::Kind::leaf);
+  for (int f = 0; f < 2; ++f) {
+    velocity_base_[f].assign(forest_.size(), nullptr);
+    for (int id = finest.begin; id < finest.end; ++id)
+      velocity_base_[f][id] = RowLayout<S>::macro(std::as_const(field_[f]).block(id), ux);
+  }
+}
+
+template <class S>
+void BasicSolver<S>::step(fluid::FineStepHook* hook) {
+  statistics_.max_mach = statistics_.max_speed = 0.0;
+  advance(0, hook);
+  time_ = levels_[0].time;
+}
+
+template <class S>
+void BasicSolver<S>::advance(int level, fluid::FineStepHook* hook) {
+  Level& l = levels_[level];
+  fill_boundary_(level, l.time, field_[l.now]);
+  stream_and_collide(level);
+  apply_sponge(level);
+  if (level == forest_.finest()) {
+    if (hook) couple(*hook);
+  } else {
+    for (const bool midway : {false, true}) {
+      interpolate_rims(level + 1, midway);
+      advance(level + 1, hook);
+      restrict_to_parents(level, 1 - l.now);
+    }
+  }
+  l.now = 1 - l.now;
+  l.time += l.dt;
+}
+
+template <class S>
+void BasicSolver<S>::stream_and_collide(int level) {
+  const Level& l = levels_[level];
+  const MomentField<S>& from = field_[l.now];
+  MomentField<S>& to = field_[1 - l.now];
+  const auto leaves = forest_.range(level, amr::Kind::leaf);
+  float max_speed_squared = 0.0f;
+  bool diverged = false;
+  const auto around = [&](int id) {
+    BlockNeighbourhood<S> blocks;
+    for (int slot = 0; slot < 27; ++slot) blocks.source[slot] = from.block(forest_.block(id).neighbour[slot]);
+    blocks.target = to.block(id);
+    return blocks;
+  };
+#pragma omp parallel for schedule(static) reduction(max : max_speed_squared) reduction(|| : diverged)
+  for (int id = leaves.begin; id < leaves.end; ++id) {
+    BlockNeighbourhood<S> blocks = around(id);
+    const BlockNeighbourhood<S> next = around(std::min(id + 1, leaves.end - 1));
+    blocks.next = &next;
+    const BlockRecord record = stream_collide(blocks, l.relaxation);
+    max_speed_squared = std::max(max_speed_squared, record.max_speed_squared);
+    diverged = diverged || record.diverged;
+  }
+  if (diverged) report_divergence(level);
+  statistics_.cell_updates += std::int64_t{leaves.size()} * amr::block_cells;
+  const double speed = std::sqrt(max_speed_squared);
+  statistics_.max_speed = std::max(statistics_.max_speed, speed * units_.velocity);
+  statistics_.max_mach = std::max(statistics_.max_mach, speed / std::sqrt(sound_speed_squared));
+}
+
+/// At the start of the coarse step (`midway` false) everything is taken at its time; half-way through, coarse leaves are
+/// averaged over the step while parents have just been restricted from the fine leaves.
+template <class S>
+void BasicSolver<S>::interpolate_rims(int level, bool midway) {
+  const Level &fine = levels_[level], &coarse = levels_[level - 1];
+  const MomentField<S>&start = field_[coarse.now], &end = field_[1 - coarse.now];
+  const SourceFields<S> source{start, midway ? &end : nullptr, midway ? end : start};
+  const float factor = stress_ratio(level - 1, level);
+  const int targets = static_cast<int>(fine.from_coarser.first.size()) - 1;
+#pragma omp parallel for schedule(dynamic, 4)
+  for (int i = 0; i < targets; ++i)
+    for (int j = fine.from_coarser.first[i]; j < fine.from_coarser.first[i + 1]; ++j)
+      resample(fine.from_coarser.job[j], forest_, source, factor, field_[fine.now]);
+}
+
+template <class S>
+void BasicSolver<S>::restrict_to_parents(int level, int field) {
+  const Level &coarse = levels_[level], &fine = levels_[level + 1];
+  const MomentField<S>& from = field_[fine.now];
+  const SourceFields<S> source{from, nullptr, from};
+  const float factor = stress_ratio(level + 1, level);
+  const int targets = static_cast<int>(coarse.to_parents.first.size()) - 1;
+#pragma omp parallel for schedule(dynamic, 1)
+  for (int i = 0; i < targets; ++i)
+    for (int j = coarse.to_parents.first[i]; j < coarse.to_parents.first[i + 1]; ++j)
+      resample(coarse.to_parents.job[j], forest_, source, factor, field_[field]);
+}
+
+/// Pneq = -2 rho c_s^2 tau S dt: per step of each level, so it scales with tau dt.
+template <class S>
+float BasicSolver<S>::stress_ratio(int from, int to) const {
+  return static_cast<float>(tau(to) * levels_[to].dt / (tau(from) * levels_[from].dt));
+}
+
+template <class S>
+void BasicSolver<S>::couple(fluid::FineStepHook& hook) {
+  using Layout = RowLayout<S>;
+  const Level& l = levels_.back();
+  const int field = 1 - l.now;
+  const fluid::VelocityView u_star = velocity_view(field);
+  force_.clear();
+  const double kappa = l.dt / specification_.density;
+  fluid::FineStep fine_step{l.time + l.dt, l.dt, u_star, force_, kappa};
+  hook.on_fine_step(fine_step);
+  const float lattice_kappa = static_cast<float>(kappa / units_.velocity);
+  const auto opened = force_.opened();
+  const int count = static_cast<int>(opened.size());
+#pragma omp parallel for schedule(static)
+  for (int i = 0; i < count; ++i) {
+    const float* f = std::as_const(force_).block(opened[i]);
+    for (int r = 0; r < rows_per_block; ++r) {
+      std::byte* row = field_[field].block(opened[i]) + r * Layout::bytes;
+      for (int a = 0; a < 3; ++a) {
+        float* u = Layout::macro(row, ux + a);
+        const float* along = f + r * fluid::ForceField::stride_y + a * fluid::ForceField::stride_component;
+        store(u, load(u) + lattice_kappa * load_unaligned(along));
+      }
+    }
+  }
+}
+
+template <class S>
+fluid::VelocityView BasicSolver<S>::velocity_view(int field) const {
+  constexpr std::ptrdiff_t row = RowLayout<S>::bytes / sizeof(float);
+  return {&forest_, velocity_base_[field].data(), lanes, row, n * row, static_cast<float>(units_.velocity)};
+}
+
+template <class S>
+void BasicSolver<S>::report_divergence(int level) const {
+  using Layout = RowLayout<S>;
+  const auto leaves = forest_.range(level, amr::Kind::leaf);
+  const Level& l = levels_[level];
+  for (int id = leaves.begin; id < leaves.end; ++id)
+    for (int cell = 0; cell < amr::block_cells; ++cell) {
+      const Index3 at{cell % n, cell / n % n, cell / (n * n)};
+      const std::byte* row = field_[1 - l.now].row(id, at[1], at[2]);
+      float speed = 0.0f;
+      for (const Moment m : {ux, uy, uz}) speed += Layout::get(row, m, at[0]) * Layout::get(row, m, at[0]);
+      speed = std::sqrt(speed);
+      const float density = Layout::get(row, drho, at[0]);
+      if (speed < speed_limit && std::abs(density) < density_limit) continue;
+      throw Diverged(std::string("the fluid diverged: ") +
+                         (std::isfinite(speed) && std::isfinite(density)
+                              ? "speed " + std::to_string(speed * units_.velocity) + " m/s, density off by " +
+                                    std::to_string(100.0f * density) + " %"
+                              : "not a number"),
+                     l.time + l.dt, level, id, at, forest_.cell_centre(id, at));
+    }
+  throw Diverged("the fluid diverged on level " + std::to_string(level));
+}
+
+template <class S>
+void BasicSolver<S>::read_block(int block, fluid::BlockFields& fields) const {
+  using Layout = RowLayout<S>;
+  const amr::Block& b = forest_.block(block);
+  if (b.kind == amr::Kind::parent) {
+    constexpr int half = n / 2;
+    const auto average = [](const auto& from, auto& to, int octant) {
+      const Index3 base{octant & 1, octant >> 1 & 1, octant >> 2};
+      for (int z = 0; z < half; ++z)
+        for (int y = 0; y < half; ++y)
+          for (int x = 0; x < half; ++x) {
+            float sum = 0.0f;
+            for (int i = 0; i < 8; ++i)
+              sum += from[((2 * z + (i >> 2)) * n + 2 * y + (i >> 1 & 1)) * n + 2 * x + (i & 1)];
+            to[((z + half * base[2]) * n + y + half * base[1]) * n + x + half * base[0]] = sum / 8.0f;
+          }
+    };
+    const auto child = std::make_unique<fluid::BlockFields>();
+    for (int octant = 0; octant < 8; ++octant) {
+      read_block(b.child[octant], *child);
+      for (int a = 0; a < 3; ++a) average(child->velocity[a], fields.velocity[a], octant);
+      average(child->pressure, fields.pressure, octant);
+    }
+    return;
+  }
+  const float velocity = static_cast<float>(units_.velocity), pressure = static_cast<float>(units_.pressure);
+  for (int r = 0; r < rows_per_block; ++r) {
+    const std::byte* row = field_[levels_[b.level].now].block(block) + r * Layout::bytes;
+    for (int x = 0; x < n; ++x) {
+      fields.pressure[r * n + x] = pressure * Layout::macro(row, drho)[x];
+      for (int a = 0; a < 3; ++a) fields.velocity[a][r * n + x] = velocity * Layout::macro(row, ux + a)[x];
+    }
+  }
+}
+
+template <class S>
+std::array<double, 4> BasicSolver<S>::mass_and_momentum() const {
+  using Layout = RowLayout<S>;
+  std::array<double, 4> total{};
+  for (int level = 0; level < forest_.levels(); ++level) {
+    const auto leaves = forest_.range(level, amr::Kind::leaf);
+    std::vector<std::array<double, 4>> part(leaves.size());
+#pragma omp parallel for schedule(static)
+    for (int id = leaves.begin; id < leaves.end; ++id) {
+      std::array<double, 4> sum{};
+      for (int r = 0; r < rows_per_block; ++r) {
+        const std::byte* row = field_[levels_[level].now].block(id) + r * Layout::bytes;
+        for (int x = 0; x < n; ++x) {
+          const double rho = 1.0 + double{Layout::macro(row, drho)[x]};
+          sum[0] += rho;
+          for (int a = 0; a < 3; ++a) sum[1 + a] += rho * Layout::macro(row, ux + a)[x];
+        }
+      }
+      part[id - leaves.begin] = sum;
+    }
+    const double cell_mass = specification_.density * std::pow(forest_.spacing(level), 3);
+    for (const auto& p : part) {
+      total[0] += cell_mass * p[0];
+      for (int a = 0; a < 3; ++a) total[1 + a] += cell_mass * units_.velocity * p[1 + a];
+    }
+  }
+  return total;
+}
+
+#ifdef __F16C__
+template class BasicSolver<HalfStress>;
+#endif
+template class BasicSolver<FloatStress>;
+
+}  // namespace drogue::lbm

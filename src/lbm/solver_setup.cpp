@@ -1,0 +1,138 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// What the solver does once: the initial state and the sponge layers.
+#include <algorithm>
+#include <cmath>
+
+#include "lbm/solver.hpp"
+
+namespace drogue::lbm {
+namespace {
+
+constexpr int n = amr::block_size;
+
+/// Initial moments of one cell: Pneq = -2/3 rho tau S from central differences of the given velocity.
+std::array<float, moments> initial_moments(const fluid::Specification& s, const Vec3& x, double dx, double tau,
+                                           const Units& units) {
+  std::array<float, moments> m{};
+  if (s.initial_pressure) m[drho] = static_cast<float>((*s.initial_pressure)(x, 0.0) / units.pressure);
+  Mat3 gradient = Mat3::Zero();   // [component][along], lattice units
+  for (int a = 0; a < 3; ++a) {
+    const Expression& u = s.initial_velocity[a];
+    m[ux + a] = static_cast<float>(u(x, 0.0) / units.velocity);
+    for (int b = 0; b < 3 && !u.is_constant(); ++b)
+      gradient(a, b) = (u(x + dx * Vec3::Unit(b), 0.0) - u(x - dx * Vec3::Unit(b), 0.0)) / (2.0 * units.velocity);
+  }
+  const Mat3 stress = -(1.0 + m[drho]) * tau / 3.0 * (gradient + gradient.transpose());
+  for (int a = 0; a < 3; ++a) m[pxx + a] = static_cast<float>(stress(a, a));
+  m[pxy] = static_cast<float>(stress(0, 1));
+  m[pxz] = static_cast<float>(stress(0, 2));
+  m[pyz] = static_cast<float>(stress(1, 2));
+  return m;
+}
+
+}  // namespace
+
+template <class S>
+void BasicSolver<S>::initialise() {
+  for (int level = 0; level < forest_.levels(); ++level) {
+    // the kinds one after the other, with the schedule of the steps, so that each thread first touches what it will update
+    for (const auto kind : {amr::Kind::leaf, amr::Kind::parent, amr::Kind::ghost, amr::Kind::boundary}) {
+      const auto range = forest_.range(level, kind);
+#pragma omp parallel
+      {
+        const fluid::Specification mine = specification_;   // formulas are evaluated on copies
+#pragma omp for schedule(static)
+        for (int id = range.begin; id < range.end; ++id) initialise_block(id, mine);
+      }
+    }
+  }
+  for (int level = forest_.finest() - 1; level >= 0; --level) restrict_to_parents(level, levels_[level].now);
+}
+
+template <class S>
+void BasicSolver<S>::initialise_block(int block, const fluid::Specification& specification) {
+  using Layout = RowLayout<S>;
+  const int level = forest_.block(block).level;
+  const bool uniform = std::all_of(specification.initial_velocity.begin(), specification.initial_velocity.end(),
+                                   [](const Expression& e) { return e.is_constant(); }) &&
+                       (!specification.initial_pressure || specification.initial_pressure->is_constant());
+  std::array<float, moments> m;
+  for (int cell = 0; cell < amr::block_cells; ++cell) {
+    const Index3 at{cell % n, cell / n % n, cell / (n * n)};
+    if (cell == 0 || !uniform)
+      m = initial_moments(specification, forest_.cell_centre(block, at), forest_.spacing(level),
+                          levels_[level].relaxation.tau, units_);
+    for (auto& field : field_)
+      for (int i = 0; i < moments; ++i) Layout::put(field.row(block, at[1], at[2]), i, at[0], m[i]);
+  }
+}
+
+/// Damping that grows with the square of the depth and takes e^-3 of a sound wave on its way through the layer.
+template <class S>
+void BasicSolver<S>::build_sponge(int level) {
+  Level& l = levels_[level];
+  const auto leaves = forest_.range(level, amr::Kind::leaf);
+  const Box& domain = forest_.domain().box;
+  const double sound_speed = units_.velocity / std::sqrt(3.0);
+  for (int id = leaves.begin; id < leaves.end; ++id) {
+    std::vector<float> damping(amr::block_cells, 0.0f);
+    for (int f = 0; f < 6; ++f) {
+      const double thickness = specification_.face[f].sponge;
+      if (thickness <= 0.0) continue;
+      const int axis = f / 2;
+      for (int cell = 0; cell < amr::block_cells; ++cell) {
+        const double x = forest_.cell_centre(id, {cell % n, cell / n % n, cell / (n * n)})[axis];
+        const double depth = thickness - (f & 1 ? domain.upper[axis] - x : x - domain.lower[axis]);
+        if (depth <= 0.0) continue;
+        const double rate = 9.0 * sound_speed / thickness * std::pow(depth / thickness, 2);
+        damping[cell] = std::max(damping[cell], static_cast<float>(1.0 - std::exp(-rate * l.dt)));
+      }
+    }
+    if (std::all_of(damping.begin(), damping.end(), [](float d) { return d == 0.0f; })) continue;
+    l.sponge_blocks.push_back(id);
+    l.sponge.insert(l.sponge.end(), damping.begin(), damping.end());
+  }
+}
+
+template <class S>
+void BasicSolver<S>::apply_sponge(int level) {
+  using Layout = RowLayout<S>;
+  Level& l = levels_[level];
+  const int count = static_cast<int>(l.sponge_blocks.size());
+  if (count == 0) return;
+  std::array<float, 6> rest_density;
+  for (int f = 0; f < 6; ++f)
+    rest_density[f] = static_cast<float>(specification_.face[f].pressure / units_.pressure);
+  const float target = *std::max_element(rest_density.begin(), rest_density.end(),
+                                         [](float a, float b) { return std::abs(a) < std::abs(b); });
+#pragma omp parallel
+  {
+    const std::array<Expression, 3> velocity = specification_.initial_velocity;
+#pragma omp for schedule(static)
+    for (int i = 0; i < count; ++i)
+      for (int cell = 0; cell < amr::block_cells; ++cell) {
+        const float d = l.sponge[i * amr::block_cells + cell];
+        if (d == 0.0f) continue;
+        const Index3 at{cell % n, cell / n % n, cell / (n * n)};
+        std::byte* row = field_[1 - l.now].row(l.sponge_blocks[i], at[1], at[2]);
+        const Vec3 x = forest_.cell_centre(l.sponge_blocks[i], at);
+        for (int a = 0; a < 3; ++a) {
+          float& u = Layout::macro(row, ux + a)[at[0]];
+          u += d * (static_cast<float>(velocity[a](x, 0.0) / units_.velocity) - u);
+        }
+        float& density = Layout::macro(row, drho)[at[0]];
+        density += d * (target - density);
+      }
+  }
+}
+
+#ifdef __F16C__
+template void BasicSolver<HalfStress>::initialise();
+template void BasicSolver<HalfStress>::build_sponge(int);
+template void BasicSolver<HalfStress>::apply_sponge(int);
+#endif
+template void BasicSolver<FloatStress>::initialise();
+template void BasicSolver<FloatStress>::build_sponge(int);
+template void BasicSolver<FloatStress>::apply_sponge(int);
+
+}  // namespace drogue::lbm

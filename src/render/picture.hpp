@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Draws scenes side by side with common colours and one camera, and writes a PNG. VTK 9.1 as Debian builds it needs a
+// display to draw: run under xvfb-run.
+#pragma once
+
+#include <array>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "render/colours.hpp"
+#include "render/scene.hpp"
+
+namespace drogue::render {
+
+struct View {
+  Vec3 from;  ///< direction from the scene to the camera
+  Vec3 up;
+};
+
+/// iso, upstream, downstream, side, top. Throws InputError naming the choices.
+View named_view(const std::string& name);
+
+struct Picture {
+  std::string title;
+  std::array<int, 2> size{1600, 900};  ///< [pixels]
+  View view;
+  Quantity field = Quantity::speed;  ///< what colours slice and iso-surface
+};
+
+/// Throws InputError without a display, std::runtime_error naming the file if it cannot be written.
+void draw(const std::vector<Scene>& scenes, const Picture& picture, const std::filesystem::path& png);
+
+}  // namespace drogue::render

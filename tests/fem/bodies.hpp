@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Bodies, states and sums that several tests of the structure use.
+#pragma once
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <random>
+#include <vector>
+
+#include "fem/structure.hpp"
+
+namespace drogue::fem {
+
+inline HexMesh block(const std::array<double, 3>& size, const std::array<int, 3>& elements) {
+  // The plate's sides follow its normal in cyclic order.
+  return make_plate({Vec3::Zero(), 2, {size[0], size[1]}, size[2], elements});
+}
+
+inline std::vector<Vec3> random_vectors(std::size_t count, double amplitude, unsigned seed) {
+  std::mt19937 generator(seed);
+  std::uniform_real_distribution<double> uniform(-amplitude, amplitude);
+  std::vector<Vec3> vectors(count);
+  for (Vec3& v : vectors) v = {uniform(generator), uniform(generator), uniform(generator)};
+  return vectors;
+}
+
+inline std::vector<Vec3> sum(std::vector<Vec3> a, const std::vector<Vec3>& b) {
+  for (std::size_t i = 0; i < a.size(); ++i) a[i] += b[i];
+  return a;
+}
+
+inline std::vector<Vec3> mapped(const std::vector<Vec3>& x, const Mat3& f) {
+  std::vector<Vec3> y;
+  for (const Vec3& p : x) y.emplace_back(f * p);
+  return y;
+}
+
+inline Mat3 rotation(double angle, const Vec3& axis) {
+  return Eigen::AngleAxisd(angle, axis.normalized()).toRotationMatrix();
+}
+
+inline std::vector<Vec3> internal_force(const Structure& body, const std::vector<Vec3>& x) {
+  std::vector<Vec3> force(x.size());
+  body.internal_force(x, force);
+  return force;
+}
+
+inline double largest_norm(const std::vector<Vec3>& field) {
+  double largest = 0.0;
+  for (const Vec3& v : field) largest = std::max(largest, v.norm());
+  return largest;
+}
+
+/// The pairs of a thin body, each with `factor` times its own mass.
+inline Inertia paired(const Structure& body, double factor) {
+  Inertia inertia{thickness_pairs(body.mesh(), 1e300), {}};
+  for (const auto& [a, b] : inertia.point) inertia.mass.push_back(factor * (body.own_mass()[a] + body.own_mass()[b]));
+  return inertia;
+}
+
+inline Inertia single(const Structure& body, double factor) {
+  Inertia inertia = body.inertia();
+  for (double& mass : inertia.mass) mass *= factor;
+  return inertia;
+}
+
+}  // namespace drogue::fem

@@ -1,0 +1,317 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Motion of a structure: conservation, damping, pairs, holds, threads.
+#include <gtest/gtest.h>
+#include <omp.h>
+
+#include <cmath>
+#include <cstring>
+#include <numbers>
+
+#include "bodies.hpp"
+#include "core/error.hpp"
+
+namespace drogue::fem {
+namespace {
+
+const NeoHookean neo_hookean(1e3, 0.3, 0.3);
+const SaintVenantKirchhoff saint_venant_kirchhoff(1e3, 0.3);
+/// Speed of waves along a bar, sqrt(E / rho), at a density of 1 kg/m^3.
+const double bar_speed = std::sqrt(1e3);
+/// Speed of waves across a plate, sqrt((lambda + 2 mu) / rho).
+const double thickness_speed = std::sqrt(1346.15);
+
+HexMesh thin_plate() { return make_plate({Vec3::Zero(), 0, {0.1, 0.08}, 5e-3, {7, 5, 1}}); }
+
+std::vector<Vec3> copy(std::span<const Vec3> field) { return {field.begin(), field.end()}; }
+
+double energy(const Structure& body) { return body.kinetic_energy() + body.elastic_energy(); }
+
+struct Momenta {
+  Vec3 linear = Vec3::Zero(), angular = Vec3::Zero();
+};
+
+/// With the masses of the points: M of the means, the reduced own mass of the differences.
+Momenta momenta(const Structure& body) {
+  Momenta sum;
+  for (std::size_t i = 0; i < body.inertia().point.size(); ++i) {
+    const auto [a, b] = body.inertia().point[i];
+    const Vec3 momentum = body.inertia().mass[i] * body.mean_velocity(static_cast<int>(i));
+    sum.linear += momentum;
+    sum.angular += body.mean_position(static_cast<int>(i)).cross(momentum);
+    if (b < 0) continue;
+    const double ma = body.own_mass()[a], mb = body.own_mass()[b];
+    const Vec3 distance = body.position()[a] - body.position()[b], closing = body.velocity()[a] - body.velocity()[b];
+    sum.angular += ma * mb / (ma + mb) * distance.cross(closing);
+  }
+  return sum;
+}
+
+// Velocities of the leapfrog scheme stand half a sub-step behind; advanced to the positions they belong to an energy
+// that does not depend on the phase of a vibration.
+double synchronised_energy(const Structure& body, double substep) {
+  const auto force = internal_force(body, copy(body.position()));
+  double power = 0.0;
+  for (std::size_t i = 0; i < force.size(); ++i) power += force[i].dot(body.velocity()[i]);
+  return energy(body) + 0.5 * substep * power;
+}
+
+TEST(Structure, free_vibration_keeps_its_energy_over_a_hundred_periods) {
+  constexpr double length = 0.1;
+  for (const Material& law : {Material(neo_hookean), Material(saint_venant_kirchhoff)}) {
+    const HexMesh mesh = block({length, 0.01, 0.01}, {10, 1, 1});
+    Structure bar(mesh, law, {.density = 1.0, .dissipation = 0.0}, {});
+    // The lowest axial mode at 3 % strain: sin(pi x / L) about the middle.
+    std::vector<Vec3> v(mesh.nodes.size());
+    const double speed = 0.03 * bar_speed;
+    for (std::size_t i = 0; i < v.size(); ++i)
+      v[i].x() = speed * std::sin(std::numbers::pi * mesh.nodes[i].x() / length);
+    bar.set_state(mesh.nodes, v);
+    const double period = 2.0 * length / bar_speed, dt = period / 2.0;
+    const double start = bar.kinetic_energy();
+    double last_position = bar.position()[0].x();
+    int turns = 0;
+    for (int half_period = 0; half_period < 200; ++half_period) {
+      bar.advance(dt, 0.0);
+      EXPECT_NEAR(synchronised_energy(bar, dt / bar.substeps()) / start, 1.0, 1e-3) << half_period;
+      turns += (bar.position()[0].x() - last_position) * bar.velocity()[0].x() < 0.0;
+      last_position = bar.position()[0].x();
+    }
+    EXPECT_GT(bar.kinetic_energy() + bar.elastic_energy(), 0.5 * start);
+  }
+}
+
+TEST(Structure, lowest_frequency_of_a_bar_is_that_of_the_wave_equation) {
+  constexpr double length = 0.2;
+  const HexMesh mesh = block({length, 0.01, 0.01}, {20, 1, 1});
+  const int tip = 20;
+  Structure bar(mesh, neo_hookean, {.density = 1.0, .dissipation = 0.0}, {});
+  std::vector<Vec3> v(mesh.nodes.size());
+  for (std::size_t i = 0; i < v.size(); ++i) v[i].x() = 1e-3 * std::sin(std::numbers::pi * mesh.nodes[i].x() / length);
+  bar.set_state(mesh.nodes, v);
+  const double period = 2.0 * length / bar_speed, dt = period / 200.0;
+  const double rest = mesh.nodes[tip].x();
+  std::vector<double> crossings;
+  double before = 0.0;
+  for (int step = 1; crossings.size() < 10; ++step) {
+    bar.advance(dt, 0.0);
+    const double now = bar.position()[tip].x() - rest;
+    if (before * now < 0.0) crossings.push_back((step - now / (now - before)) * dt);
+    before = now;
+  }
+  // Lateral inertia (Love) and 20 elements change it by 1e-3 each at most.
+  EXPECT_NEAR((crossings[9] - crossings[1]) / (4.0 * period), 1.0, 3e-3);
+}
+
+TEST(Structure, momentum_and_angular_momentum_are_conserved_without_holds) {
+  for (const double factor : {1.0, 0.5, 30.0}) {
+    Structure plate(thin_plate(), neo_hookean, {.density = 1.0, .dissipation = 0.0}, {});
+    plate.set_inertia(paired(plate, factor));
+    const auto x = sum(plate.mesh().nodes, random_vectors(plate.mesh().nodes.size(), 3e-4, 1));
+    auto v = random_vectors(x.size(), 1.0, 2);
+    for (std::size_t i = 0; i < v.size(); ++i) v[i] += Vec3(1.0, 2.0, 3.0) + Vec3(30.0, -10.0, 20.0).cross(x[i]);
+    plate.set_state(x, v);
+    const Momenta before = momenta(plate);
+    for (int step = 0; step < 20; ++step) plate.advance(1e-3, 0.0);
+    const Momenta after = momenta(plate);
+    EXPECT_GT(plate.substeps(), 5);
+    EXPECT_LT((after.linear - before.linear).norm(), 1e-12 * before.linear.norm()) << factor;
+    EXPECT_LT((after.angular - before.angular).norm(), 1e-11 * before.angular.norm()) << factor;
+  }
+}
+
+TEST(Structure, dissipation_removes_the_thickness_mode_within_a_few_sub_steps) {
+  Structure plate(thin_plate(), neo_hookean, {.density = 1.0}, {});
+  plate.set_inertia(paired(plate, 40.0));
+  std::vector<Vec3> v(plate.mesh().nodes.size());
+  for (std::size_t i = 0; i < v.size(); ++i) v[i].x() = std::copysign(0.05, plate.mesh().nodes[i].x());
+  plate.set_state(plate.mesh().nodes, v);
+  const double start = energy(plate), difference = plate.face_velocity_difference()[0];
+  EXPECT_NEAR(difference, 0.1, 1e-12);
+  EXPECT_NEAR(plate.face_velocity_difference()[1], 0.1, 1e-12);
+  // Squared modulus 1 - 0.2 (omega dt)^2 = 0.6 a sub-step: a tenth after five, a hundredth after nine.
+  plate.advance(9.0 * 1.5 / plate.largest_frequency(), 0.0);
+  EXPECT_LE(plate.substeps(), 10);
+  EXPECT_LT(energy(plate), 0.1 * start);
+  EXPECT_LT(plate.face_velocity_difference()[0], 0.3 * difference);
+}
+
+TEST(Structure, dissipation_spares_what_the_sub_step_resolves) {
+  // Axial mode of a strip whose pairs carry 40 times its mass, against a sub-step set by the thickness.
+  constexpr double length = 0.2;
+  const HexMesh mesh = block({length, 0.02, 2e-3}, {10, 1, 1});
+  Structure strip(mesh, neo_hookean, {.density = 1.0}, {});
+  strip.set_inertia(paired(strip, 40.0));
+  std::vector<Vec3> v(mesh.nodes.size());
+  for (std::size_t i = 0; i < v.size(); ++i) v[i].x() = 0.02 * std::sin(std::numbers::pi * mesh.nodes[i].x() / length);
+  strip.set_state(mesh.nodes, v);
+  const double start = strip.kinetic_energy(), period = 2.0 * length / bar_speed * std::sqrt(40.0);
+  for (int step = 0; step < 30; ++step) strip.advance(period / 10.0, 0.0);
+  EXPECT_GT(energy(strip), 0.99 * start);
+  EXPECT_LT(energy(strip), 1.001 * start);
+}
+
+TEST(Structure, pairs_with_their_own_mass_move_as_free_nodes) {
+  Structure nodes(thin_plate(), neo_hookean, {.density = 1.0}, {}),
+      pairs(thin_plate(), neo_hookean, {.density = 1.0}, {});
+  pairs.set_inertia(paired(pairs, 1.0));
+  const auto v = random_vectors(nodes.mesh().nodes.size(), 1.0, 4);
+  nodes.set_state(nodes.mesh().nodes, v);
+  pairs.set_state(nodes.mesh().nodes, v);
+  EXPECT_NEAR(nodes.kinetic_energy(), pairs.kinetic_energy(), 1e-14 * nodes.kinetic_energy());
+  nodes.advance(1e-3, 0.0);
+  pairs.advance(1e-3, 0.0);
+  for (std::size_t i = 0; i < v.size(); ++i) EXPECT_LT((nodes.position()[i] - pairs.position()[i]).norm(), 1e-13);
+}
+
+TEST(Structure, mean_of_a_pair_accelerates_by_force_over_its_mass) {
+  Structure plate(thin_plate(), neo_hookean, {.density = 1.0, .dissipation = 0.0}, {});
+  const Inertia inertia = paired(plate, 7.0);
+  plate.set_inertia(inertia);
+  const auto x = sum(plate.mesh().nodes, random_vectors(plate.mesh().nodes.size(), 3e-4, 1));
+  const std::vector<Vec3> rest(x.size(), Vec3::Zero());
+  plate.set_state(x, rest);
+  const auto force = internal_force(plate, x);
+  constexpr double dt = 1e-6;
+  plate.advance(dt, 0.0);
+  ASSERT_EQ(plate.substeps(), 1);
+  for (std::size_t i = 0; i < inertia.point.size(); ++i) {
+    const auto [a, b] = inertia.point[i];
+    const Vec3 expected = dt * (force[a] + force[b]) / inertia.mass[i];
+    EXPECT_LT((plate.mean_velocity(static_cast<int>(i)) - expected).norm(), 1e-12 * expected.norm());
+    const Vec3 difference = dt * (force[a] / plate.own_mass()[a] - force[b] / plate.own_mass()[b]);
+    EXPECT_LT((plate.velocity()[a] - plate.velocity()[b] - difference).norm(), 1e-12 * difference.norm());
+  }
+}
+
+TEST(Structure, set_mean_velocity_keeps_the_difference_of_the_faces) {
+  Structure plate(thin_plate(), neo_hookean, {.density = 1.0}, {});
+  plate.set_inertia(paired(plate, 3.0));
+  plate.set_state(plate.mesh().nodes, random_vectors(plate.mesh().nodes.size(), 1.0, 9));
+  const auto [a, b] = plate.inertia().point[5];
+  const Vec3 difference = plate.velocity()[a] - plate.velocity()[b], v(1.0, -2.0, 3.0);
+  plate.set_mean_velocity(5, v);
+  EXPECT_LT((plate.mean_velocity(5) - v).norm(), 1e-15);
+  EXPECT_LT((plate.velocity()[a] - plate.velocity()[b] - difference).norm(), 1e-15);
+}
+
+TEST(Structure, thickness_stretch_is_that_of_the_pairs) {
+  Structure plate(thin_plate(), neo_hookean, {.density = 1.0}, {});
+  const auto thinner = mapped(plate.mesh().nodes, Vec3(0.7, 1.3, 1.3).asDiagonal());
+  plate.set_state(thinner, std::vector<Vec3>(thinner.size(), Vec3::Zero()));
+  EXPECT_EQ(plate.mean_thickness_stretch(), 1.0);
+  EXPECT_EQ(plate.face_velocity_difference()[1], 0.0);
+  plate.set_inertia(paired(plate, 3.0));
+  EXPECT_NEAR(plate.mean_thickness_stretch(), 0.7, 1e-13);
+}
+
+std::vector<int> all_nodes(const HexMesh& mesh) {
+  std::vector<int> nodes(mesh.nodes.size());
+  for (std::size_t i = 0; i < nodes.size(); ++i) nodes[i] = static_cast<int>(i);
+  return nodes;
+}
+
+// A load is what a coupling applies: an impulse to the means before every step.
+void push(Structure& body, const Vec3& acceleration, double dt) {
+  for (std::size_t i = 0; i < body.inertia().point.size(); ++i) {
+    body.set_mean_velocity(static_cast<int>(i), body.mean_velocity(static_cast<int>(i)) + dt * acceleration);
+  }
+}
+
+TEST(Structure, tethers_carry_a_load_with_displacement_load_over_stiffness) {
+  const HexMesh mesh = thin_plate();
+  const Vec3 acceleration(3.0, -1.0, 2.0);
+  for (const double factor : {0.5, 1.0, 20.0}) {
+    // Critically damped; an impulse per sub-step shifts the balance by dissipation x damping x dt, so there is none.
+    const double stiffness = 1e6, damping = 2.0 * std::sqrt(stiffness * factor), dt = 1e-5;
+    Structure plate(mesh, neo_hookean, {.density = 1.0, .dissipation = 0.0},
+                    {{all_nodes(mesh), false, stiffness, damping}});
+    plate.set_inertia(paired(plate, factor));
+    for (int step = 0; step < 10000; ++step) {
+      push(plate, acceleration, dt);
+      plate.advance(dt, 0.0);
+    }
+    const double mass = factor * 0.1 * 0.08 * 5e-3, volume = 0.1 * 0.08 * 5e-3;
+    const Vec3 load = mass * acceleration, displacement = load / (stiffness * volume);
+    for (std::size_t i = 0; i < mesh.nodes.size(); ++i) {
+      EXPECT_LT((plate.position()[i] - mesh.nodes[i] - displacement).norm(), 1e-6 * displacement.norm()) << factor;
+    }
+    EXPECT_LT((plate.reaction() + load).norm(), 1e-6 * load.norm()) << factor;
+  }
+}
+
+TEST(Structure, stiff_tethers_stay_stable_and_do_not_shorten_the_sub_step) {
+  const HexMesh mesh = thin_plate();
+  const auto corners = corner_nodes(mesh, 0.016);
+  Structure free_plate(mesh, neo_hookean, {.density = 1.0}, {}),
+      held(mesh, neo_hookean, {.density = 1.0}, {{corners, false, 1e12, 0.0}});
+  for (Structure* plate : {&free_plate, &held}) {
+    plate->set_inertia(paired(*plate, 40.0));
+    plate->set_state(mesh.nodes, random_vectors(mesh.nodes.size(), 0.5, 3));
+    plate->advance(1e-3, 0.0);
+  }
+  EXPECT_EQ(held.substeps(), free_plate.substeps());
+  for (int step = 0; step < 200; ++step) held.advance(1e-3, 0.0);
+  for (const int node : corners) EXPECT_LT((held.position()[node] - mesh.nodes[node]).norm(), 1e-6);
+}
+
+TEST(Structure, rigid_hold_is_the_limit_of_stiff_tethers_and_its_reaction_is_the_lost_momentum) {
+  const HexMesh mesh = thin_plate();
+  const auto corners = corner_nodes(mesh, 0.016);
+  Structure rigid(mesh, neo_hookean, {.density = 1.0}, {{corners, true}}),
+      tethered(mesh, neo_hookean, {.density = 1.0}, {{corners, false, 1e13, 0.0}});
+  const Vec3 acceleration(0.5, 0.0, 0.1);
+  constexpr double dt = 1e-3;
+  for (Structure* plate : {&rigid, &tethered}) {
+    plate->set_inertia(paired(*plate, 40.0));
+    for (int step = 0; step < 30; ++step) {
+      const Vec3 before = momenta(*plate).linear, load = 40.0 * 0.1 * 0.08 * 5e-3 * acceleration;
+      push(*plate, acceleration, dt);
+      plate->advance(dt, 0.0);
+      EXPECT_LT((momenta(*plate).linear - before - dt * (load + plate->reaction())).norm(), 1e-14);
+    }
+  }
+  for (const int node : corners) {
+    EXPECT_EQ(rigid.position()[node], mesh.nodes[node]);
+    EXPECT_EQ(rigid.velocity()[node], Vec3::Zero());
+  }
+  const double moved = (rigid.mean_position(20) - tethered.mean_position(20)).norm();
+  EXPECT_GT(rigid.mean_position(20).x(), 1e-5);
+  EXPECT_LT(moved, 1e-3 * rigid.mean_position(20).x());
+}
+
+TEST(Structure, every_number_of_threads_gives_the_same_bits) {
+  const int threads_before = omp_get_max_threads();
+  const HexMesh mesh = make_plate({Vec3::Zero(), 0, {0.2, 0.2}, 5e-3, {15, 13, 1}});
+  const auto v = random_vectors(mesh.nodes.size(), 0.5, 8);
+  std::vector<Vec3> reference_position;
+  Vec3 reference_reaction;
+  for (const int threads : {1, 2, 4}) {
+    omp_set_num_threads(threads);
+    Structure plate(mesh, neo_hookean, {.density = 1.0}, {{corner_nodes(mesh, 0.02), false, 1e7, 10.0}});
+    plate.set_inertia(paired(plate, 40.0));
+    plate.set_state(mesh.nodes, v);
+    for (int step = 0; step < 5; ++step) plate.advance(7e-4, 0.0);
+    const auto position = copy(plate.position());
+    if (threads == 1) {
+      reference_position = position;
+      reference_reaction = plate.reaction();
+    }
+    EXPECT_EQ(std::memcmp(position.data(), reference_position.data(), position.size() * sizeof(Vec3)), 0) << threads;
+    EXPECT_EQ(plate.reaction(), reference_reaction);
+  }
+  omp_set_num_threads(threads_before);
+}
+
+TEST(Structure, sub_steps_follow_the_thickness_mode) {
+  Structure plate(make_plate({Vec3::Zero(), 0, {0.8128, 0.8128}, 5e-3, {52, 52, 1}}), neo_hookean, {.density = 1.0},
+                  {});
+  plate.set_inertia(paired(plate, 40.0));
+  plate.advance(7.8e-4, 0.0);
+  // 2 c / h = 14.7e3 rad/s against 0.9 x 2 / sqrt(1.4) = 1.52.
+  const double fewest = 7.8e-4 * 2.0 * thickness_speed / 5e-3 / 1.52;
+  EXPECT_GE(plate.substeps(), fewest);
+  EXPECT_LE(plate.substeps(), 1.1 * fewest + 1.0);
+}
+
+}  // namespace
+}  // namespace drogue::fem

@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Long runs in a fluid that only decays: what grows here grows by itself.
+#include <gtest/gtest.h>
+
+#include "bodies.hpp"
+
+namespace drogue::fsi {
+namespace {
+
+using namespace drogue::testing;
+
+constexpr double spacing = 1.0 / 16, dt = 4e-3;
+const Vec3 centre(1.02, 0.49, 0.51);
+
+fem::Structure held_plate(double density = fluid_density) {
+  PlateOptions options{.density = density, .thickness = 0.02, .elements = 8};
+  const fem::Structure free = plate(options, centre);
+  options.holds = {{.nodes = fem::corner_nodes(free.mesh(), 0.5 / 8), .rigid = true}};
+  return plate(options, centre);
+}
+
+TEST(Stability, a_massless_plate_stays_bounded_for_thousands_of_steps) {
+  const amr::Forest forest = periodic_box();
+  FakeFluid fluid(forest, fluid_density);
+  fluid.fill_at_random(41);
+  fem::Structure solid = held_plate();
+  Coupling coupling(solid, forest, coupled());
+  double largest_difference = 0.0, largest = 0.0;
+  for (int step = 0; step < 2000; ++step) {
+    // A gust that comes again and again, and blows the plate up by a good part of its side.
+    if (step % 200 == 0) {
+      fluid.fill(
+          [&](const Vec3& x) { return Vec3(1.5, 0.1 * std::sin(20 * x.z()), 0.1 * std::cos(31 * x.y() + step)); });
+    }
+    fluid.step(coupling, dt, 0.99);
+    largest = std::max(largest, largest_speed(solid));
+    largest_difference = std::max(largest_difference, solid.face_velocity_difference()[1]);
+    ASSERT_LT(largest, 6.0) << step;
+  }
+  const auto [thinnest, thickest] = solid.volume_ratio_range();
+  RecordProperty("largest_difference", std::to_string(largest_difference));
+  std::printf("largest speed %.3g m/s, face difference %.3g m/s rms, J %.3f to %.3f, %d sub-steps\n", largest,
+              largest_difference, thinnest, thickest, solid.substeps());
+  EXPECT_LT(largest_difference, 0.1);
+  EXPECT_GT(thinnest, 0.5);
+  EXPECT_LT(thickest, 2.0);
+}
+
+TEST(Stability, a_disturbance_of_the_thickness_decays) {
+  const amr::Forest forest = periodic_box();
+  FakeFluid fluid(forest, fluid_density);
+  fem::Structure solid = held_plate();
+  Coupling coupling(solid, forest, coupled());
+  auto opposite = random_vectors(solid.position().size(), 0.3, 42);
+  for (const auto& [a, b] : solid.inertia().point) opposite[b] = -opposite[a];
+  add_velocity(solid, opposite);
+  const double first = solid.face_velocity_difference()[1];
+  double last = first;
+  for (int hundred = 0; hundred < 5; ++hundred) {
+    for (int step = 0; step < 20; ++step) fluid.step(coupling, dt);
+    EXPECT_LT(solid.face_velocity_difference()[1], last);
+    last = solid.face_velocity_difference()[1];
+  }
+  EXPECT_LT(last, 0.05 * first);
+  EXPECT_NEAR(solid.mean_thickness_stretch(), 1.0, 0.02);
+}
+
+class ThickSolid : public ::testing::TestWithParam<double> {};
+
+TEST_P(ThickSolid, slip_decays_for_any_density_that_is_accepted) {
+  const amr::Forest forest = periodic_box();
+  FakeFluid fluid(forest, fluid_density);
+  fluid.fill_at_random(43);
+  fem::StructureOptions options;
+  options.density = GetParam() * fluid_density;
+  fem::Structure solid(fem::make_plate({centre, 0, {0.375, 0.375}, 0.375, {6, 6, 6}}),
+                       fem::NeoHookean(1000.0, 0.3, 0.3), options, {});
+  Coupling coupling(solid, forest, coupled("cube"));
+  double first = 0.0;
+  for (int step = 0; step < 400; ++step) {
+    fluid.step(coupling, dt);
+    if (step == 0) first = coupling.last().slip_before;
+    ASSERT_LT(fluid.max_speed(), 4.0) << step;
+  }
+  EXPECT_LT(coupling.last().slip_before, 0.2 * first);
+}
+
+INSTANTIATE_TEST_SUITE_P(DensityRatio, ThickSolid, ::testing::Values(0.55, 1.0, 3.0, 1000.0), [](const auto& test) {
+  return "percent_" + std::to_string(static_cast<int>(100 * test.param));
+});
+
+}  // namespace
+}  // namespace drogue::fsi

@@ -1,0 +1,233 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Properties of the whole fluid: exactness on simple flows, convergence, conservation, independence of threads.
+#include <gtest/gtest.h>
+#include <omp.h>
+
+#include <cmath>
+#include <cstdio>
+#include <numbers>
+
+#include "core/error.hpp"
+#include "lbm/solver.hpp"
+
+namespace drogue::lbm {
+namespace {
+
+constexpr int n = amr::block_size;
+
+fluid::Specification specification(double viscosity, double lattice_velocity) {
+  fluid::Specification s;
+  s.density = 1.0;
+  s.viscosity = viscosity;
+  s.reference_velocity = 1.0;
+  s.lattice_velocity = lattice_velocity;
+  return s;
+}
+
+/// A periodic box of `across` coarse cells along x and y, one block deep, edge 1 m; the quarter x, y < 1/2 refined `extra` times.
+amr::Forest periodic_box(int across, int extra) {
+  const double dx = 1.0 / across;
+  const amr::Domain domain{{Vec3::Zero(), Vec3(1.0, 1.0, n * dx)}, dx, {true, true, true}};
+  const Box quarter{Vec3(0.01, 0.01, 0.0), Vec3(0.49, 0.49, 1.0)};
+  return amr::Forest(domain, extra, amr::refine_box(quarter, dx, dx / (1 << extra)));
+}
+
+double taylor_green_error(int across, int extra) {
+  auto s = specification(1.0 / 50.0, 0.64 / across);   // diffusive scaling: compressibility falls with the error
+  s.initial_velocity = {Expression("sin(2*pi*x)*cos(2*pi*y)"), Expression("-cos(2*pi*x)*sin(2*pi*y)"), Expression(0.0)};
+  s.initial_pressure = Expression("0.25*(cos(4*pi*x)+cos(4*pi*y))");
+  Solver solver(periodic_box(across, extra), s);
+  while (solver.time() < 0.25) solver.step(nullptr);
+  const double k = 2.0 * std::numbers::pi, decay = std::exp(-2.0 * k * k * s.viscosity * solver.time());
+  double error = 0.0, norm = 0.0;
+  fluid::BlockFields fields;
+  for (int level = 0; level < solver.forest().levels(); ++level) {
+    const auto leaves = solver.forest().range(level, amr::Kind::leaf);
+    const double volume = std::pow(solver.forest().spacing(level), 3);
+    for (int id = leaves.begin; id < leaves.end; ++id) {
+      solver.read_block(id, fields);
+      for (int c = 0; c < amr::block_cells; ++c) {
+        const Vec3 x = solver.forest().cell_centre(id, {c % n, c / n % n, c / (n * n)});
+        const double u = decay * std::sin(k * x[0]) * std::cos(k * x[1]);
+        const double v = -decay * std::cos(k * x[0]) * std::sin(k * x[1]);
+        error += volume * (std::pow(fields.velocity[0][c] - u, 2) + std::pow(fields.velocity[1][c] - v, 2));
+        norm += volume * (u * u + v * v);
+      }
+    }
+  }
+  return std::sqrt(error / norm);
+}
+
+TEST(Solver, taylor_green_converges_at_second_order_on_one_level) {
+  const double e16 = taylor_green_error(16, 0), e32 = taylor_green_error(32, 0), e64 = taylor_green_error(64, 0);
+  std::printf("  one level    16: %.3e  32: %.3e  64: %.3e  order %.2f %.2f\n", e16, e32, e64, std::log2(e16 / e32),
+              std::log2(e32 / e64));
+  EXPECT_GT(std::log2(e16 / e32), 1.9);
+  EXPECT_GT(std::log2(e32 / e64), 1.9);
+}
+
+TEST(Solver, taylor_green_converges_at_second_order_on_two_levels) {
+  const double e32 = taylor_green_error(32, 1), e64 = taylor_green_error(64, 1);
+  std::printf("  two levels   32: %.3e  64: %.3e  order %.2f\n", e32, e64, std::log2(e32 / e64));
+  EXPECT_GT(std::log2(e32 / e64), 1.9);
+}
+
+/// A tunnel of 4 x 2 x 2 root blocks with a cube refined twice in its middle.
+amr::Forest tunnel(double dx = 0.25) {
+  const amr::Domain domain{{Vec3::Zero(), Vec3(64 * dx, 32 * dx, 32 * dx)}, dx, {false, false, false}};
+  const Vec3 middle = domain.box.upper / 2.0;
+  const Box cube{middle - Vec3::Constant(3.0 * dx), middle + Vec3::Constant(3.0 * dx)};
+  return amr::Forest(domain, 2, amr::refine_box(cube, dx, dx / 4));
+}
+
+fluid::Specification wind_tunnel(double speed) {
+  auto s = specification(1e-3, 0.05);
+  for (auto& face : s.face) face.type = fluid::Boundary::free_slip;
+  s.face[0].type = fluid::Boundary::velocity;
+  s.face[0].velocity = {Expression(speed), Expression(0.0), Expression(0.0)};
+  s.face[1].type = fluid::Boundary::outlet;
+  s.initial_velocity = {Expression(speed), Expression(0.0), Expression(0.0)};
+  return s;
+}
+
+TEST(Solver, uniform_flow_stays_uniform_through_inlet_outlet_walls_and_levels) {
+  Solver solver(tunnel(), wind_tunnel(1.0));
+  ASSERT_EQ(solver.forest().levels(), 3);
+  for (int i = 0; i < 15; ++i) solver.step(nullptr);
+  fluid::BlockFields fields;
+  for (int level = 0; level < 3; ++level) {
+    const auto leaves = solver.forest().range(level, amr::Kind::leaf);
+    for (int id = leaves.begin; id < leaves.end; ++id) {
+      solver.read_block(id, fields);
+      for (int c = 0; c < amr::block_cells; ++c) {
+        ASSERT_NEAR(fields.velocity[0][c], 1.0f, 2e-5f);
+        ASSERT_NEAR(fields.velocity[1][c], 0.0f, 2e-5f);
+        ASSERT_NEAR(fields.velocity[2][c], 0.0f, 2e-5f);
+      }
+    }
+  }
+}
+
+/// Momentum enters a closed periodic box only through the hook: kappa f dt for every opened cell.
+class Push : public fluid::FineStepHook {
+ public:
+  void on_fine_step(fluid::FineStep& step) override {
+    const amr::Forest& forest = *step.u_star.forest;
+    const auto leaves = forest.range(forest.finest(), amr::Kind::leaf);
+    const int block = leaves.begin;
+    step.f.open(std::span(&block, 1));
+    for (int i = 0; i < fluid::ForceField::block_floats; ++i) step.f.block(block)[i] = 1e-2f;
+    impulse += step.dt * 1e-2 * std::pow(forest.spacing(forest.finest()), 3) * amr::block_cells;
+    ++calls;
+  }
+  double impulse = 0.0;
+  int calls = 0;
+};
+
+TEST(Solver, the_hook_is_called_once_per_finest_step_and_its_impulse_reaches_the_fluid) {
+  auto s = specification(1e-2, 0.05);
+  s.initial_velocity = {Expression(0.1), Expression(0.0), Expression(0.0)};
+  Solver solver(periodic_box(32, 0), s);
+  Push push;
+  const auto before = solver.mass_and_momentum();
+  for (int i = 0; i < 20; ++i) solver.step(&push);
+  const auto after = solver.mass_and_momentum();
+  EXPECT_EQ(push.calls, 20);
+  for (int a = 1; a < 4; ++a) EXPECT_NEAR(after[a] - before[a], push.impulse, 2e-3 * push.impulse);
+
+  Solver refined(periodic_box(32, 1), s);
+  Push finest;
+  for (int i = 0; i < 3; ++i) refined.step(&finest);
+  EXPECT_EQ(finest.calls, 6);
+}
+
+TEST(Solver, mass_drift_across_levels_is_small) {
+  auto s = specification(1e-3, 0.05);
+  s.initial_velocity = {Expression("sin(2*pi*x)*cos(2*pi*y)"), Expression("-cos(2*pi*x)*sin(2*pi*y)"), Expression(0.0)};
+  s.initial_pressure = Expression("0.25*(cos(4*pi*x)+cos(4*pi*y))");
+  Solver solver(periodic_box(32, 1), s);
+  const auto before = solver.mass_and_momentum();
+  while (solver.time() < 1.0) solver.step(nullptr);
+  const auto after = solver.mass_and_momentum();
+  const double drift = std::abs(after[0] / before[0] - 1.0);
+  std::printf("  relative mass drift over one turnover: %.2e\n", drift);
+  EXPECT_LT(drift, 1e-4);
+}
+
+TEST(Solver, mass_is_conserved_between_walls) {
+  auto s = specification(1e-2, 0.05);
+  for (auto& face : s.face) face.type = fluid::Boundary::no_slip;
+  s.face[4].type = s.face[5].type = fluid::Boundary::free_slip;
+  s.initial_velocity = {Expression("sin(pi*x)*cos(pi*y)"), Expression("-cos(pi*x)*sin(pi*y)"), Expression(0.0)};
+  const double dx = 1.0 / 32;
+  Solver solver(amr::Forest({{Vec3::Zero(), Vec3(1.0, 1.0, 16 * dx)}, dx, {}}, 0, amr::any_of({})), s);
+  const auto before = solver.mass_and_momentum();
+  for (int i = 0; i < 400; ++i) solver.step(nullptr);
+  const auto after = solver.mass_and_momentum();
+  EXPECT_NEAR(after[0] / before[0], 1.0, 1e-6);
+}
+
+/// Couette flow between a wall at rest and one that moves: linear, exactly, with the walls half-way between cells.
+TEST(Solver, couette_flow_is_linear_between_walls_placed_at_the_faces) {
+  auto s = specification(0.2, 0.05);
+  s.face[2].type = s.face[3].type = fluid::Boundary::no_slip;
+  s.face[3].velocity = {Expression(1.0), Expression(0.0), Expression(0.0)};
+  const double dx = 1.0 / 16;
+  Solver solver(amr::Forest({{Vec3::Zero(), Vec3::Ones()}, dx, {true, false, true}}, 0, amr::any_of({})), s);
+  while (solver.time() < 6.0) solver.step(nullptr);
+  fluid::BlockFields fields;
+  solver.read_block(0, fields);
+  for (int y = 0; y < n; ++y) EXPECT_NEAR(fields.velocity[0][y * n + 3], (y + 0.5) * dx, 2e-3);
+}
+
+TEST(Solver, a_formula_inlet_ramps_up_and_varies_in_place_and_time) {
+  auto s = wind_tunnel(0.0);
+  s.face[0].velocity = {Expression("y/8*(1+0.1*t)"), Expression(0.0), Expression(0.0)};
+  s.face[0].ramp = 0.5;
+  Solver solver(tunnel(), s);
+  while (solver.time() < 1.0) solver.step(nullptr);
+  fluid::BlockFields fields;
+  solver.read_block(solver.forest().locate(Vec3(0.1, 0.1, 4.0))->block, fields);
+  const float low = fields.velocity[0][0];
+  solver.read_block(solver.forest().locate(Vec3(0.1, 7.9, 4.0))->block, fields);
+  const float high = fields.velocity[0][15 * n];
+  EXPECT_GT(high, low + 0.5f);
+}
+
+TEST(Solver, gives_the_same_bits_for_any_number_of_threads) {
+  std::vector<float> reference;
+  for (const int threads : {1, 2, 4}) {
+    omp_set_num_threads(threads);
+    auto s = wind_tunnel(1.0);
+    s.initial_velocity[1] = Expression("0.3*sin(x)*cos(2*z)");
+    Solver solver(tunnel(), s);
+    for (int i = 0; i < 3; ++i) solver.step(nullptr);
+    std::vector<float> values;
+    fluid::BlockFields fields;
+    for (int level = 0; level < solver.forest().levels(); ++level) {
+      const auto leaves = solver.forest().range(level, amr::Kind::leaf);
+      for (int id = leaves.begin; id < leaves.end; ++id) {
+        solver.read_block(id, fields);
+        for (const auto& component : fields.velocity) values.insert(values.end(), component.begin(), component.end());
+      }
+    }
+    if (reference.empty()) reference = values;
+    EXPECT_EQ(values, reference) << threads << " threads";
+  }
+}
+
+TEST(Solver, divergence_names_time_level_cell_and_position) {
+  auto s = wind_tunnel(1.0);
+  s.initial_velocity[0] = Expression("9*exp(-(x-8)^2)");
+  Solver solver(tunnel(), s);
+  try {
+    for (int i = 0; i < 10; ++i) solver.step(nullptr);
+    FAIL() << "did not diverge";
+  } catch (const Diverged& e) {
+    const std::string message = e.what();
+    for (const char* part : {"time", "level", "cell", "position"}) EXPECT_NE(message.find(part), std::string::npos) << message;
+  }
+}
+
+}  // namespace
+}  // namespace drogue::lbm
