@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Domain faces: every condition is a rule that fills the layer of cells beyond the face from the layer before it, with the
-// face half-way between. Mirror images conserve mass exactly:
+// face half-way between. Mirror images conserve mass exactly along
+// walls and in corners of free-slip walls; where no-slip walls meet, to the difference of populations along them:
 //   free slip   u_n and the shear stresses with one normal index change sign (specular reflection)
 //   no slip     u -> 2 u_wall - u (bounce-back seen from the moments)
 //   velocity    u -> 2 u_face - u

@@ -2,6 +2,7 @@
 #include "render/picture.hpp"
 
 #include <fmt/format.h>
+
 #include <vtkActor.h>
 #include <vtkCamera.h>
 #include <vtkFeatureEdges.h>
@@ -19,6 +20,7 @@
 #include <vtkTextProperty.h>
 #include <vtkWindowToImageFilter.h>
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>

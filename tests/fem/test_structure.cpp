@@ -61,22 +61,17 @@ TEST(Structure, free_vibration_keeps_its_energy_over_a_hundred_periods) {
     const HexMesh mesh = block({length, 0.01, 0.01}, {10, 1, 1});
     Structure bar(mesh, law, {.density = 1.0, .dissipation = 0.0}, {});
     // The lowest axial mode at 3 % strain: sin(pi x / L) about the middle.
-    std::vector<Vec3> v(mesh.nodes.size());
+    std::vector<Vec3> v(mesh.nodes.size(), Vec3::Zero());
     const double speed = 0.03 * bar_speed;
     for (std::size_t i = 0; i < v.size(); ++i)
       v[i].x() = speed * std::sin(std::numbers::pi * mesh.nodes[i].x() / length);
     bar.set_state(mesh.nodes, v);
     const double period = 2.0 * length / bar_speed, dt = period / 2.0;
     const double start = bar.kinetic_energy();
-    double last_position = bar.position()[0].x();
-    int turns = 0;
     for (int half_period = 0; half_period < 200; ++half_period) {
       bar.advance(dt, 0.0);
       EXPECT_NEAR(synchronised_energy(bar, dt / bar.substeps()) / start, 1.0, 1e-3) << half_period;
-      turns += (bar.position()[0].x() - last_position) * bar.velocity()[0].x() < 0.0;
-      last_position = bar.position()[0].x();
     }
-    EXPECT_GT(bar.kinetic_energy() + bar.elastic_energy(), 0.5 * start);
   }
 }
 
@@ -85,7 +80,7 @@ TEST(Structure, lowest_frequency_of_a_bar_is_that_of_the_wave_equation) {
   const HexMesh mesh = block({length, 0.01, 0.01}, {20, 1, 1});
   const int tip = 20;
   Structure bar(mesh, neo_hookean, {.density = 1.0, .dissipation = 0.0}, {});
-  std::vector<Vec3> v(mesh.nodes.size());
+  std::vector<Vec3> v(mesh.nodes.size(), Vec3::Zero());
   for (std::size_t i = 0; i < v.size(); ++i) v[i].x() = 1e-3 * std::sin(std::numbers::pi * mesh.nodes[i].x() / length);
   bar.set_state(mesh.nodes, v);
   const double period = 2.0 * length / bar_speed, dt = period / 200.0;
@@ -122,7 +117,7 @@ TEST(Structure, momentum_and_angular_momentum_are_conserved_without_holds) {
 TEST(Structure, dissipation_removes_the_thickness_mode_within_a_few_sub_steps) {
   Structure plate(thin_plate(), neo_hookean, {.density = 1.0}, {});
   plate.set_inertia(paired(plate, 40.0));
-  std::vector<Vec3> v(plate.mesh().nodes.size());
+  std::vector<Vec3> v(plate.mesh().nodes.size(), Vec3::Zero());
   for (std::size_t i = 0; i < v.size(); ++i) v[i].x() = std::copysign(0.05, plate.mesh().nodes[i].x());
   plate.set_state(plate.mesh().nodes, v);
   const double start = energy(plate), difference = plate.face_velocity_difference()[0];
@@ -138,10 +133,10 @@ TEST(Structure, dissipation_removes_the_thickness_mode_within_a_few_sub_steps) {
 TEST(Structure, dissipation_spares_what_the_sub_step_resolves) {
   // Axial mode of a strip whose pairs carry 40 times its mass, against a sub-step set by the thickness.
   constexpr double length = 0.2;
-  const HexMesh mesh = block({length, 0.02, 2e-3}, {10, 1, 1});
+  const HexMesh mesh = block({length, 0.02, 1e-3}, {10, 1, 1});
   Structure strip(mesh, neo_hookean, {.density = 1.0}, {});
   strip.set_inertia(paired(strip, 40.0));
-  std::vector<Vec3> v(mesh.nodes.size());
+  std::vector<Vec3> v(mesh.nodes.size(), Vec3::Zero());
   for (std::size_t i = 0; i < v.size(); ++i) v[i].x() = 0.02 * std::sin(std::numbers::pi * mesh.nodes[i].x() / length);
   strip.set_state(mesh.nodes, v);
   const double start = strip.kinetic_energy(), period = 2.0 * length / bar_speed * std::sqrt(40.0);

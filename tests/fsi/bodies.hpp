@@ -22,7 +22,7 @@ struct PlateOptions {
   double density = fluid_density;
   double side = 0.5, thickness = 0.01;
   int elements = 16;
-  std::vector<fem::Hold> holds;
+  std::vector<fem::Hold> holds{};
 };
 
 /// A plate normal to x in the middle of the fine cube, or of the periodic box.
