@@ -22,50 +22,43 @@
 namespace drogue::fem {
 namespace {
 
-struct Change {
-  Vec3 position, velocity;
-};
-
-/// Of a coordinate at `x`, with reference `reference`, moving with `v` under the elastic force `f`.
-Change change(const Vec3& x, const Vec3& reference, const Vec3& v, const Vec3& f, const Inertance& inertance,
-              const Hold* hold, double dt, double phi) {
-  Vec3 dv;
-  if (hold == nullptr) {
-    dv = dt / inertance.mass * f;
-  } else if (hold->rigid) {
-    return {Vec3::Zero(), Vec3::Zero()};
-  } else {
-    const double kick = dt / inertance.mass, stiffness = hold->stiffness * inertance.volume;
-    const double resistance = 1.0 + kick * (hold->damping * inertance.volume + dt * stiffness);
-    dv = (v + kick * (f + stiffness * (reference - x))) / resistance - v;
-  }
-  return {dt * v + phi * dt * dv, dv};
+/// Change of the velocity `v` of a held coordinate at `x`, with reference `reference`, under the elastic force `f`.
+Vec3 held_velocity_change(const Hold& hold, const Inertance& inertance, const Vec3& f, const Vec3& x,
+                          const Vec3& reference, const Vec3& v, double dt) {
+  if (hold.rigid) return Vec3::Zero();
+  const double kick = dt / inertance.mass, stiffness = hold.stiffness * inertance.volume;
+  const double resistance = 1.0 + kick * (hold.damping * inertance.volume + dt * stiffness);
+  return (v + kick * (f + stiffness * (reference - x))) / resistance - v;
 }
 
 }  // namespace
 
 void Structure::Data::move(std::size_t i, double dt) {
   const Point& p = points[i];
-  const double phi = 1.0 + options.dissipation;
-  Vec3 force = elements.nodal_force(p.a);
-  Change mean;
+  // `of` takes the coordinate out of a nodal field.
+  const auto velocity_change = [&](const Inertance& inertance, const Vec3& f, const auto& of) -> Vec3 {
+    if (p.hold == nullptr) return dt / inertance.mass * f;
+    return held_velocity_change(*p.hold, inertance, f, of(x), of(mesh.nodes), of(v), dt);
+  };
+  const auto move_node = [&](int node, const Vec3& dv) {
+    x[node] += dt * (v[node] + (1.0 + options.dissipation) * dv);
+    v[node] += dv;
+  };
+  const auto mean_of = [&p](const std::vector<Vec3>& field) { return p.mean_of(field); };
+  Vec3 force = elements.nodal_force(p.a), dv;
   if (p.is_pair()) {
-    const auto difference_of = [&p](const std::vector<Vec3>& field) -> Vec3 { return field[p.a] - field[p.b]; };
     const Vec3 force_b = elements.nodal_force(p.b);
-    const Change difference = change(difference_of(x), difference_of(mesh.nodes), difference_of(v),
-                                     p.share_b * force - p.share_a * force_b, p.difference, p.hold, dt, phi);
+    const Vec3 dv_difference = velocity_change(p.difference, p.share_b * force - p.share_a * force_b,
+                                               [&p](const auto& field) -> Vec3 { return field[p.a] - field[p.b]; });
     force += force_b;
-    mean = change(p.mean_of(x), p.mean_of(mesh.nodes), p.mean_of(v), force, p.mean, p.hold, dt, phi);
-    x[p.a] += mean.position + p.share_b * difference.position;
-    v[p.a] += mean.velocity + p.share_b * difference.velocity;
-    x[p.b] += mean.position - p.share_a * difference.position;
-    v[p.b] += mean.velocity - p.share_a * difference.velocity;
+    dv = velocity_change(p.mean, force, mean_of);
+    move_node(p.a, dv + p.share_b * dv_difference);
+    move_node(p.b, dv - p.share_a * dv_difference);
   } else {
-    mean = change(x[p.a], mesh.nodes[p.a], v[p.a], force, p.mean, p.hold, dt, phi);
-    x[p.a] += mean.position;
-    v[p.a] += mean.velocity;
+    dv = velocity_change(p.mean, force, mean_of);
+    move_node(p.a, dv);
   }
-  if (p.hold != nullptr) hold_impulse[i] += p.mean.mass * mean.velocity - dt * force;
+  if (p.hold != nullptr) hold_impulse[i] += p.mean.mass * dv - dt * force;
 }
 
 void Structure::Data::stop_rigidly_held() {

@@ -79,7 +79,9 @@ class LineReader {
           // what no stencil uses is read from the block itself and weighted with zero
           const int id = neighbour[slot] == amr::none ? job.source : neighbour[slot];
           const MomentField<S>& field = forest.block(id).kind == amr::Kind::parent ? parents : leaves;
-          rows[dx + 1][z - z0_][y - y0_] = field.row(id, y & (n - 1), z & (n - 1));
+          const std::byte* row = field.row(id, y & (n - 1), z & (n - 1));
+          rows[dx + 1][z - z0_][y - y0_] = row;
+          for (std::size_t line = 0; line < Layout::bytes; line += 64) __builtin_prefetch(row + line);
         }
   }
 

@@ -10,16 +10,16 @@ namespace {
 
 using Colour = std::array<double, 3>;
 
-// van der Walt & Smith, matplotlib 2015.
-constexpr std::array<Colour, 9> viridis{{{0.267, 0.005, 0.329},
-                                         {0.279, 0.175, 0.483},
-                                         {0.230, 0.322, 0.546},
-                                         {0.173, 0.449, 0.558},
-                                         {0.128, 0.567, 0.551},
-                                         {0.158, 0.684, 0.502},
-                                         {0.369, 0.789, 0.383},
-                                         {0.678, 0.864, 0.190},
-                                         {0.993, 0.906, 0.144}}};
+// From dark violet over red to pale yellow; after matplotlib's inferno without its black end.
+constexpr std::array<Colour, 9> embers{{{0.258, 0.039, 0.406},
+                                        {0.397, 0.083, 0.433},
+                                        {0.533, 0.134, 0.415},
+                                        {0.667, 0.182, 0.370},
+                                        {0.796, 0.245, 0.296},
+                                        {0.902, 0.349, 0.196},
+                                        {0.970, 0.490, 0.080},
+                                        {0.987, 0.663, 0.072},
+                                        {0.965, 0.870, 0.320}}};
 // ColorBrewer Blues, Harrower & Brewer, The Cartographic Journal 40 (2003) 27.
 constexpr std::array<Colour, 9> blues{{{0.969, 0.984, 1.000},
                                        {0.871, 0.922, 0.969},
@@ -31,9 +31,7 @@ constexpr std::array<Colour, 9> blues{{{0.969, 0.984, 1.000},
                                        {0.031, 0.318, 0.612},
                                        {0.031, 0.188, 0.420}}};
 
-std::span<const Colour> stops(ColourMap map) {
-  return map == ColourMap::viridis ? std::span(viridis) : std::span(blues);
-}
+std::span<const Colour> stops(ColourMap map) { return map == ColourMap::embers ? std::span(embers) : std::span(blues); }
 
 double round_up(double value) {
   if (value <= 0.0) return 0.0;

@@ -9,7 +9,7 @@
 
 namespace drogue::render {
 
-enum class ColourMap { viridis, blues };
+enum class ColourMap { embers, blues };
 
 using Range = std::array<double, 2>;
 

@@ -19,7 +19,8 @@ struct Options {
   std::filesystem::path run, output;
   std::optional<double> time;
   std::vector<double> sequence, region;
-  std::string what, field = "velocity", size = "1600x900", view = "iso", plane = "z=0";
+  std::vector<std::string> what;
+  std::string field = "velocity", size = "1600x900", view = "auto", plane = "z=0";
   double q = 40.0;
 };
 
@@ -68,26 +69,31 @@ std::array<int, 2> parse_size(const std::string& text) {
   return size;
 }
 
+/// What is drawn if nothing is asked for: in a sequence the canopy, else all there is.
+std::string default_what(const RunFolder& run, bool sequence) {
+  if (run.fluid.empty() || (sequence && !run.canopy.empty())) return "canopy";
+  return run.canopy.empty() ? "slice,q" : "canopy,slice,q";
+}
+
 void render_run(const Options& options) {
   const RunFolder run = open_run(options.run);
   const bool sequence = !options.sequence.empty();
-  const std::string what = !options.what.empty()           ? options.what
-                           : sequence || run.fluid.empty() ? "canopy"
-                           : run.canopy.empty()            ? "slice,q"
-                                                           : "canopy,slice,q";
-  const Content content = parse_content(what);
   const Choice choice = parse_choice(options);
-  const std::vector<double> times = sequence ? options.sequence : std::vector{options.time.value_or(run.last_time())};
-
+  Picture picture{
+      std::filesystem::canonical(run.folder).filename().string(), parse_size(options.size), {}, choice.field};
+  Content all;
+  for (const std::string& what : options.what.empty() ? std::vector{default_what(run, sequence)} : options.what) {
+    const Content content = parse_content(what);
+    picture.rows.push_back({content, named_view(options.view, content)});
+    all = {all.canopy || content.canopy, all.slice || content.slice, all.q || content.q};
+  }
   std::vector<Scene> scenes;
-  for (double time : times) scenes.push_back(load_scene(run, time, content, choice));
-  Picture picture{std::filesystem::absolute(run.folder).lexically_normal().filename().string(),
-                  parse_size(options.size), named_view(options.view), choice.field};
-  if (picture.title.empty()) picture.title = std::filesystem::absolute(run.folder).parent_path().filename().string();
-  const std::filesystem::path output =
-      !options.output.empty()
-          ? options.output
-          : run.folder / (sequence ? "sequence.png" : fmt::format("picture_{:.3f}s.png", scenes[0].time));
+  for (double time : sequence ? options.sequence : std::vector{options.time.value_or(run.last_time())})
+    scenes.push_back(load_scene(run, time, all, choice));
+
+  std::filesystem::path output = options.output;
+  if (output.empty())
+    output = run.folder / (sequence ? "sequence.png" : fmt::format("picture_{:.3f}s.png", scenes[0].time));
   draw(scenes, picture, output);
   fmt::print("{}\n", output.string());
 }
@@ -103,14 +109,15 @@ int main(int argc, char** argv) {
       ->delimiter(',')
       ->excludes("--time");
   app.add_option("-o,--output", options.output, "PNG file (default: in the run folder)");
-  app.add_option("--what", options.what,
-                 "canopy,slice,q or some of them (default: all there is; in a sequence canopy)");
+  app.add_option(
+      "--what", options.what,
+      "canopy,slice,q or some of them; repeated: one row of panels each (default: all there is; in a sequence canopy)");
   app.add_option("--field", options.field, "velocity or vorticity: colours slice and iso-surface")
       ->capture_default_str();
   app.add_option("--q", options.q, "value of the Q criterion on the iso-surface [1/s^2]")->capture_default_str();
   app.add_option("--plane", options.plane, "plane of the slice")->capture_default_str();
   app.add_option("--region", options.region, "part of the flow that is shown [m]: x0 x1 y0 y1 z0 z1")->expected(6);
-  app.add_option("--view", options.view, "iso, upstream, downstream, side, top")->capture_default_str();
+  app.add_option("--view", options.view, "auto, iso, back, upstream, downstream, side, top")->capture_default_str();
   app.add_option("--size", options.size, "width and height in pixels")->capture_default_str();
   try {
     app.parse(argc, argv);

@@ -24,7 +24,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
-#include <optional>
 
 #include "core/error.hpp"
 #include "io/pending_file.hpp"
@@ -65,6 +64,24 @@ vtkSmartPointer<vtkActor> rim_actor(vtkPolyData* surface, double width) {
   return actor;
 }
 
+/// Part of the window, in shares of its size from the lower left corner.
+struct Rectangle {
+  double left, bottom, width, height;
+};
+
+vtkSmartPointer<vtkRenderer> add_renderer(vtkRenderWindow* window, const Rectangle& place) {
+  auto renderer = vtkSmartPointer<vtkRenderer>::New();
+  renderer->SetViewport(place.left, place.bottom, place.left + place.width, place.bottom + place.height);
+  renderer->SetBackground(1.0, 1.0, 1.0);
+  renderer->SetUseDepthPeeling(1);
+  renderer->SetMaximumNumberOfPeels(12);
+  renderer->SetOcclusionRatio(0.0);
+  window->AddRenderer(renderer);
+  return renderer;
+}
+
+std::string time_label(const Scene& scene) { return fmt::format("t = {:.2f} s", scene.time); }
+
 void add_text(vtkRenderer* renderer, const std::string& text, double x, double y, int pixels, bool centred) {
   vtkNew<vtkTextActor> actor;
   actor->SetInput(text.c_str());
@@ -83,24 +100,23 @@ void add_colour_bar(vtkRenderer* renderer, vtkLookupTable* colours, const char* 
                     int pixels) {
   vtkNew<vtkScalarBarActor> bar;
   bar->SetLookupTable(colours);
-  bar->SetTitle(title);
   bar->SetNumberOfLabels(5);
-  bar->SetLabelFormat("%.2f");
-  bar->SetBarRatio(0.22);
+  bar->SetLabelFormat("%.3g");
+  bar->SetBarRatio(0.25);
+  bar->SetTextPad(pixels / 3);
   bar->UnconstrainedFontSizeOn();
-  bar->SetPosition(0.08, bottom);
-  bar->SetWidth(0.84);
-  bar->SetHeight(height);
-  for (vtkTextProperty* style : {bar->GetTitleTextProperty(), bar->GetLabelTextProperty()}) {
-    style->SetFontFamilyToArial();
-    style->SetFontSize(pixels);
-    style->SetColor(ink[0], ink[1], ink[2]);
-    style->BoldOff();
-    style->ItalicOff();
-    style->ShadowOff();
-  }
-  bar->SetVerticalTitleSeparation(pixels / 2);
+  bar->SetPosition(0.05, bottom);
+  bar->SetWidth(0.7);
+  bar->SetHeight(height - 0.05);
+  vtkTextProperty* style = bar->GetLabelTextProperty();
+  style->SetFontFamilyToArial();
+  style->SetFontSize(pixels);
+  style->SetColor(ink[0], ink[1], ink[2]);
+  style->BoldOff();
+  style->ItalicOff();
+  style->ShadowOff();
   renderer->AddViewProp(bar);
+  add_text(renderer, title, 0.05, bottom + height, pixels, false);
 }
 
 Range scalar_range(const std::vector<vtkPolyData*>& surfaces) {
@@ -115,8 +131,8 @@ Range scalar_range(const std::vector<vtkPolyData*>& surfaces) {
   return round_range(lowest, highest);
 }
 
-/// The box of everything drawn.
-Box extent(const std::vector<Scene>& scenes) {
+/// The box of what a row shows of all scenes.
+Box extent(const std::vector<Scene>& scenes, const Content& content) {
   Box box{Vec3::Constant(1e300), Vec3::Constant(-1e300)};
   const auto include = [&](vtkPolyData* surface) {
     if (!surface || surface->GetNumberOfPoints() == 0) return;
@@ -125,9 +141,10 @@ Box extent(const std::vector<Scene>& scenes) {
     box.upper = box.upper.cwiseMax(Vec3(bounds[1], bounds[3], bounds[5]));
   };
   for (const Scene& scene : scenes) {
-    for (const auto& canopy : scene.canopy) include(canopy);
-    include(scene.slice);
-    include(scene.q);
+    for (const auto& canopy : scene.canopy)
+      if (content.canopy) include(canopy);
+    if (content.slice) include(scene.slice);
+    if (content.q) include(scene.q);
   }
   return (box.upper.array() < box.lower.array()).any() ? Box{Vec3::Constant(-1.0), Vec3::Constant(1.0)} : box;
 }
@@ -163,30 +180,50 @@ Colours common_colours(const std::vector<Scene>& scenes) {
     if (scene.q) isos.push_back(scene.q);
   }
   Colours colours;
-  if (!canopies.empty()) colours.displacement = lookup_table(ColourMap::viridis, scalar_range(canopies));
+  if (!canopies.empty()) colours.displacement = lookup_table(ColourMap::embers, scalar_range(canopies));
   if (!slices.empty() || !isos.empty())
     colours.field = lookup_table(ColourMap::blues, scalar_range(slices.empty() ? isos : slices));
   return colours;
 }
 
-void add_scene(vtkRenderer* renderer, const Scene& scene, const Colours& colours, double line_width) {
+/// Colour bars in a strip on the right; returns its share of the width.
+double add_legend(vtkRenderWindow* window, const Colours& colours, Quantity field, int text, int width) {
+  if (!colours.displacement && !colours.field) return 0.0;
+  const double strip = std::min(0.3, 8.5 * text / width);
+  const auto legend = add_renderer(window, {1.0 - strip, 0.0, strip, 1.0});
+  const bool both = colours.displacement && colours.field;
+  const double height = both ? 0.4 : 0.5;
+  if (colours.displacement)
+    add_colour_bar(legend, colours.displacement, displacement_name, both ? 0.53 : 0.25, height, text * 4 / 5);
+  if (colours.field)
+    add_colour_bar(legend, colours.field, quantity_name(field), both ? 0.05 : 0.25, height, text * 4 / 5);
+  return strip;
+}
+
+void add_scene(vtkRenderer* renderer, const Scene& scene, const Content& content, const Colours& colours,
+               double line_width) {
   for (const auto& canopy : scene.canopy) {
+    if (!content.canopy) continue;
     const auto actor = surface_actor(canopy, colours.displacement);
-    actor->GetProperty()->SetSpecular(0.15);
+    actor->GetProperty()->SetAmbient(0.25);
+    actor->GetProperty()->SetDiffuse(0.85);
+    actor->GetProperty()->SetSpecular(0.12);
     actor->GetProperty()->SetSpecularPower(20.0);
     renderer->AddActor(actor);
     renderer->AddActor(rim_actor(canopy, line_width));
   }
-  if (scene.slice) {
+  if (content.slice && scene.slice) {
     const auto actor = surface_actor(scene.slice, colours.field);
     actor->GetProperty()->LightingOff();
     renderer->AddActor(actor);
   }
-  if (scene.q) {
+  if (content.q && scene.q) {
     const auto actor = surface_actor(scene.q, colours.field);
-    actor->GetProperty()->SetSpecular(0.25);
+    actor->GetProperty()->SetAmbient(0.2);
+    actor->GetProperty()->SetDiffuse(0.9);
+    actor->GetProperty()->SetSpecular(0.3);
     actor->GetProperty()->SetSpecularPower(30.0);
-    actor->GetProperty()->SetOpacity(scene.canopy.empty() ? 1.0 : 0.55);
+    actor->GetProperty()->SetOpacity(content.canopy ? 0.6 : 1.0);
     renderer->AddActor(actor);
   }
 }
@@ -211,13 +248,16 @@ void write_png(vtkRenderWindow* window, const std::filesystem::path& png) {
 
 }  // namespace
 
-View named_view(const std::string& name) {
+View named_view(const std::string& name, const Content& content) {
   if (name == "iso") return {{-0.55, 0.45, 1.0}, Vec3::UnitY()};
+  if (name == "back") return {{0.8, 0.45, 1.0}, Vec3::UnitY()};
   if (name == "upstream") return {-Vec3::UnitX(), Vec3::UnitY()};
   if (name == "downstream") return {Vec3::UnitX(), Vec3::UnitY()};
   if (name == "side") return {Vec3::UnitZ(), Vec3::UnitY()};
   if (name == "top") return {Vec3::UnitY(), -Vec3::UnitZ()};
-  throw InputError(fmt::format("view \"{}\" is not known; expected iso, upstream, downstream, side or top", name));
+  if (name == "auto") return named_view(content.q ? "iso" : content.slice ? "side" : "back", content);
+  throw InputError(
+      fmt::format("view \"{}\" is not known; expected auto, iso, back, upstream, downstream, side or top", name));
 }
 
 void draw(const std::vector<Scene>& scenes, const Picture& picture, const std::filesystem::path& png) {
@@ -231,46 +271,30 @@ void draw(const std::vector<Scene>& scenes, const Picture& picture, const std::f
   window->SetAlphaBitPlanes(1);
 
   const Colours colours = common_colours(scenes);
-  const bool bars = colours.displacement || colours.field;
-  const int text = std::max(height / 36, 10 * oversampling);
-  const double strip = bars ? std::min(0.3, 7.0 * text / width) : 0.0;  // of the width, for the colour bars
-  const double panel = (1.0 - strip) / static_cast<double>(scenes.size());
-  const Box box = extent(scenes);
+  const int text = static_cast<int>(std::sqrt(width * height) / 44.0);
+  const double strip = add_legend(window, colours, picture.field, text, width);
+  const double header = 1.8 * text / height;  // of the height, for the title
+  const Rectangle area{0.0, 0.0, 1.0 - strip, 1.0 - header};
+  const double panel_width = area.width / scenes.size(), panel_height = area.height / picture.rows.size();
 
   vtkNew<vtkLightKit> lights;
-  for (std::size_t s = 0; s < scenes.size(); ++s) {
-    vtkNew<vtkRenderer> renderer;
-    renderer->SetViewport(panel * static_cast<double>(s), 0.0, panel * static_cast<double>(s + 1), 1.0);
-    renderer->SetBackground(1.0, 1.0, 1.0);
-    renderer->SetUseDepthPeeling(1);
-    renderer->SetMaximumNumberOfPeels(12);
-    renderer->SetOcclusionRatio(0.0);
-    add_scene(renderer, scenes[s], colours, 0.0016 * height);
-    lights->AddLightsToRenderer(renderer);
-    fit(renderer->GetActiveCamera(), box, picture.view, panel * width / height);
-    renderer->ResetCameraClippingRange();
-    const std::string time = fmt::format("t = {:.2f} s", scenes[s].time);
-    if (scenes.size() == 1)
-      add_text(renderer, picture.title + "    " + time, 0.02, 0.97, text, false);
-    else
-      add_text(renderer, time, 0.5, 0.9, text, true);
-    if (scenes.size() > 1 && s == 0) add_text(renderer, picture.title, 0.03, 0.98, text, false);
-    window->AddRenderer(renderer);
+  lights->SetKeyLightIntensity(0.95);
+  for (std::size_t r = 0; r < picture.rows.size(); ++r) {
+    const auto& [content, view] = picture.rows[r];
+    const Box box = extent(scenes, content);
+    for (std::size_t s = 0; s < scenes.size(); ++s) {
+      const Rectangle panel{s * panel_width, (picture.rows.size() - 1 - r) * panel_height, panel_width, panel_height};
+      const auto renderer = add_renderer(window, panel);
+      add_scene(renderer, scenes[s], content, colours, 0.0016 * height);
+      lights->AddLightsToRenderer(renderer);
+      fit(renderer->GetActiveCamera(), box, view, panel_width * width / (panel_height * height));
+      renderer->ResetCameraClippingRange();
+      if (scenes.size() > 1 && r == 0) add_text(renderer, time_label(scenes[s]), 0.5, 1.0, text, true);
+    }
   }
-
-  vtkNew<vtkRenderer> legend;
-  if (bars) {
-    legend->SetViewport(1.0 - strip, 0.0, 1.0, 1.0);
-    legend->SetBackground(1.0, 1.0, 1.0);
-    const bool both = colours.displacement && colours.field;
-    if (colours.displacement)
-      add_colour_bar(legend, colours.displacement, displacement_name, both ? 0.53 : 0.25, both ? 0.4 : 0.5,
-                     text * 4 / 5);
-    if (colours.field)
-      add_colour_bar(legend, colours.field, quantity_name(picture.field), both ? 0.06 : 0.25, both ? 0.4 : 0.5,
-                     text * 4 / 5);
-    window->AddRenderer(legend);
-  }
+  const auto title = add_renderer(window, {0.0, 1.0 - header, 1.0 - strip, header});
+  add_text(title, scenes.size() > 1 ? picture.title : picture.title + "     " + time_label(scenes[0]), 0.015, 0.8, text,
+           false);
   window->Render();
   write_png(window, png);
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Draws scenes side by side with common colours and one camera, and writes a PNG. VTK 9.1 as Debian builds it needs a
-// display to draw: run under xvfb-run.
+// Draws scenes side by side with common colours and one camera a row, and writes a PNG. VTK 9.1 as Debian builds it
+// needs a display to draw: run under xvfb-run.
 #pragma once
 
 #include <array>
@@ -18,14 +18,19 @@ struct View {
   Vec3 up;
 };
 
-/// iso, upstream, downstream, side, top. Throws InputError naming the choices.
-View named_view(const std::string& name);
+/// iso, back, upstream, downstream, side, top; or auto: what suits the content. Throws InputError naming the choices.
+View named_view(const std::string& name, const Content& content);
+
+struct Row {
+  Content content;
+  View view;
+};
 
 struct Picture {
   std::string title;
   std::array<int, 2> size{1600, 900};  ///< [pixels]
-  View view;
-  Quantity field = Quantity::speed;  ///< what colours slice and iso-surface
+  std::vector<Row> rows;               ///< one below the other; every scene is a column of its own
+  Quantity field = Quantity::speed;    ///< what colours slice and iso-surface
 };
 
 /// Throws InputError without a display, std::runtime_error naming the file if it cannot be written.

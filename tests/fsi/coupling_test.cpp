@@ -124,8 +124,8 @@ TEST(Coupling, a_held_plate_stops_the_fluid_and_its_holds_bear_the_drag) {
   EXPECT_LT((coupling.last().force - drag).norm(), 1e-6 * drag.norm());
   EXPECT_LT((solid.reaction() + drag).norm(), 1e-6 * drag.norm());
   EXPECT_EQ(coupling.last().slip_before, 1.0);
-  // Only near the edges, where a marker has neighbours on one side only, is there slip left.
-  EXPECT_LT(coupling.slip(fluid.view())[1], 0.2);
+  // Slip is left only near the edges: there a marker has neighbours on one side, and half the gain.
+  EXPECT_LT(coupling.slip(fluid.view())[1], 0.25);
 }
 
 TEST(Coupling, slip_is_that_of_the_points_along_one_normal) {

@@ -1,6 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Long runs in a fluid that only decays: what grows here grows by itself.
 #include <gtest/gtest.h>
+#include <omp.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
 
 #include "bodies.hpp"
 
@@ -12,6 +17,16 @@ using namespace drogue::testing;
 constexpr double spacing = 1.0 / 16, dt = 4e-3;
 const Vec3 centre(1.02, 0.49, 0.51);
 
+/// On one thread: bodies this small only wait for others.
+class Stability : public ::testing::Test {
+ protected:
+  Stability() : threads_before_(omp_get_max_threads()) { omp_set_num_threads(1); }
+  ~Stability() override { omp_set_num_threads(threads_before_); }
+
+ private:
+  int threads_before_;
+};
+
 fem::Structure held_plate(double density = fluid_density) {
   PlateOptions options{.density = density, .thickness = 0.02, .elements = 8};
   const fem::Structure free = plate(options, centre);
@@ -19,13 +34,12 @@ fem::Structure held_plate(double density = fluid_density) {
   return plate(options, centre);
 }
 
-TEST(Stability, a_massless_plate_stays_bounded_for_thousands_of_steps) {
+TEST_F(Stability, a_massless_plate_stays_bounded_for_thousands_of_steps) {
   const amr::Forest forest = periodic_box();
   FakeFluid fluid(forest, fluid_density);
-  fluid.fill_at_random(41);
   fem::Structure solid = held_plate();
   Coupling coupling(solid, forest, coupled());
-  double largest_difference = 0.0, largest = 0.0;
+  double fastest = 0.0, fastest_closing = 0.0, thinnest = 1.0, thickest = 1.0;
   for (int step = 0; step < 2000; ++step) {
     // A gust that comes again and again, and blows the plate up by a good part of its side.
     if (step % 200 == 0) {
@@ -33,20 +47,20 @@ TEST(Stability, a_massless_plate_stays_bounded_for_thousands_of_steps) {
           [&](const Vec3& x) { return Vec3(1.5, 0.1 * std::sin(20 * x.z()), 0.1 * std::cos(31 * x.y() + step)); });
     }
     fluid.step(coupling, dt, 0.99);
-    largest = std::max(largest, largest_speed(solid));
-    largest_difference = std::max(largest_difference, solid.face_velocity_difference()[1]);
-    ASSERT_LT(largest, 6.0) << step;
+    fastest = std::max(fastest, largest_speed(solid));
+    fastest_closing = std::max(fastest_closing, solid.face_velocity_difference()[0]);
+    thinnest = std::min(thinnest, solid.volume_ratio_range()[0]);
+    thickest = std::max(thickest, solid.volume_ratio_range()[1]);
+    ASSERT_LT(fastest, 3.0) << step;
   }
-  const auto [thinnest, thickest] = solid.volume_ratio_range();
-  RecordProperty("largest_difference", std::to_string(largest_difference));
-  std::printf("largest speed %.3g m/s, face difference %.3g m/s rms, J %.3f to %.3f, %d sub-steps\n", largest,
-              largest_difference, thinnest, thickest, solid.substeps());
-  EXPECT_LT(largest_difference, 0.1);
+  std::printf("largest: speed %.3g m/s, closing of faces %.3g m/s rms, J %.3f to %.3f, %d sub-steps\n", fastest,
+              fastest_closing, thinnest, thickest, solid.substeps());
+  EXPECT_LT(fastest_closing, 0.05 * fastest);
   EXPECT_GT(thinnest, 0.5);
   EXPECT_LT(thickest, 2.0);
 }
 
-TEST(Stability, a_disturbance_of_the_thickness_decays) {
+TEST_F(Stability, a_disturbance_of_the_thickness_decays) {
   const amr::Forest forest = periodic_box();
   FakeFluid fluid(forest, fluid_density);
   fem::Structure solid = held_plate();
@@ -65,7 +79,7 @@ TEST(Stability, a_disturbance_of_the_thickness_decays) {
   EXPECT_NEAR(solid.mean_thickness_stretch(), 1.0, 0.02);
 }
 
-class ThickSolid : public ::testing::TestWithParam<double> {};
+class ThickSolid : public Stability, public ::testing::WithParamInterface<double> {};
 
 TEST_P(ThickSolid, slip_decays_for_any_density_that_is_accepted) {
   const amr::Forest forest = periodic_box();
