@@ -214,8 +214,7 @@ HoldDescription read_hold(Section& section) {
 
 fem::StructureOptions read_structure(Section& body) {
   fem::StructureOptions options;
-  options.density =
-      body.get<double>("density", {.unit = "kg/m^3", .doc = "own mass", .range = positive});
+  options.density = body.get<double>("density", {.unit = "kg/m^3", .doc = "own mass", .range = positive});
   options.dissipation = body.get<double>("dissipation", {.doc = "numerical, of what the sub-step barely resolves",
                                                          .fallback = options.dissipation,
                                                          .range = {.min = 0.0, .max = 0.49}});

@@ -2,6 +2,7 @@
 #include "fem/hex_elements.hpp"
 
 #include <fmt/format.h>
+#include <omp.h>
 
 #include <algorithm>
 
@@ -17,6 +18,11 @@ HexElements::HexElements(const HexMesh& mesh, const Material& material, const st
   check_not_inverted(mesh);
   connect_nodes(mesh);
   lump_volumes(mesh);
+}
+
+int HexElements::threads() const {
+  constexpr int fewest_elements = 256;
+  return std::clamp(count_ / fewest_elements, 1, omp_get_max_threads());
 }
 
 void HexElements::fill_batches(const HexMesh& mesh) {

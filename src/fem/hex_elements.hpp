@@ -24,6 +24,8 @@ class HexElements {
   HexElements(const HexMesh& mesh, const Material& material, const std::array<double, 2>& volume_ratio);
 
   int count() const { return count_; }
+  /// As many threads as have enough elements each to be worth their barriers.
+  int threads() const;
   /// Reference volume lumped on the nodes [m^3].
   const std::vector<double>& nodal_volume() const { return nodal_volume_; }
 
@@ -39,8 +41,7 @@ class HexElements {
     return sum;
   }
 
-  /// Whether compute_forces() met a J out of bounds, or none at all since a position is not finite, since it was told
-  /// to forget.
+  /// Whether compute_forces(), since told to forget, met a J that is out of bounds or no number.
   bool out_of_bounds() const { return out_of_bounds_.load(std::memory_order_relaxed); }
   void forget_out_of_bounds() { out_of_bounds_ = false; }
   struct Extreme {
@@ -71,8 +72,8 @@ class HexElements {
   std::vector<double> nodal_volume_;
   std::vector<NodalForces> forces_;
   std::vector<VolumeRatio> ratios_;
-  std::vector<int> first_slot_,
-      slot_;  ///< of each node: where its elements keep their x force, in doubles of `forces_`
+  std::vector<int> first_slot_;  ///< of each node in `slot_`
+  std::vector<int> slot_;        ///< where the elements of a node keep their x force, in doubles of `forces_`
   std::atomic<bool> out_of_bounds_ = false;
 };
 

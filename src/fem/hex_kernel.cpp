@@ -10,11 +10,9 @@
 namespace drogue::fem {
 namespace {
 
-/// A vector field on the twelve edges or, interpolated, at the Gauss points: [parent direction][line][axis]. A line
-/// along one direction is named by its place (0 or 1) along the two others, the lower one counting 1 and the higher
-/// one 2.
+/// A vector field on the twelve edges or, interpolated, on the lines through the Gauss points, numbered like the edges.
 struct LineField {
-  Pack at[3][4][3];
+  Pack at[3][4][3];  ///< [parent direction][line][axis]
 };
 
 /// The line along `direction` through a Gauss point.
@@ -110,7 +108,7 @@ inline void forces_of_flux(LineField& flux, NodalForces& forces) {
 }
 
 inline void extend(VolumeRatio& range, const Pack& j) {
-  // Written so that a NaN is kept.
+  // Ordered so that a NaN replaces the range: a position that is none makes J NaN at every point.
   range.smallest = range.smallest < j ? range.smallest : j;
   range.largest = range.largest > j ? range.largest : j;
 }

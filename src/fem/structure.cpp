@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 
 #include "core/error.hpp"
@@ -182,6 +183,7 @@ std::span<const double> Structure::own_mass() const { return data_->own_mass; }
 std::span<const double> Structure::volume() const { return data_->elements.nodal_volume(); }
 
 void Structure::set_state(std::span<const Vec3> position, std::span<const Vec3> velocity) {
+  assert(position.size() == data_->x.size() && velocity.size() == data_->v.size());
   data_->x.assign(position.begin(), position.end());
   data_->v.assign(velocity.begin(), velocity.end());
   data_->estimate_largest_frequency();
@@ -206,7 +208,7 @@ Vec3 Structure::reaction() const { return data_->reaction; }
 
 void Structure::internal_force(std::span<const Vec3> position, std::span<Vec3> force) const {
   HexElements& elements = data_->elements;
-#pragma omp parallel
+#pragma omp parallel num_threads(elements.threads())
   {
     elements.compute_forces(position);
 #pragma omp for schedule(static)

@@ -73,7 +73,7 @@ void Structure::Data::stop_rigidly_held() {
 }
 
 void Structure::Data::estimate_largest_frequency() {
-#pragma omp parallel
+#pragma omp parallel num_threads(elements.threads())
   elements.stiffness_bounds(x, lightness, stiffness_bounds);
   const double stiffest = *std::max_element(stiffness_bounds.begin(), stiffness_bounds.end());
   largest_frequency = std::sqrt(stiffest / options.density);
@@ -110,7 +110,7 @@ void Structure::advance(double dt, double time) {
   d.elements.forget_out_of_bounds();
   const double substep = dt / d.substeps;
   int done = 0;
-#pragma omp parallel
+#pragma omp parallel num_threads(d.elements.threads())
   for (int n = 0; n < d.substeps; ++n) {
     d.elements.compute_forces(d.x);
     if (d.elements.out_of_bounds()) break;

@@ -51,6 +51,16 @@ std::span<const std::uint8_t> add_hold_force(const Solid& solid, std::span<const
   }
 }
 
+/// Weighted with the dragged mass, which on a sheet is proportional to the area.
+double root_mean_square(std::span<const Vec3> slip, std::span<const double> weight) {
+  double sum = 0.0, weights = 0.0;
+  for (std::size_t p = 0; p < slip.size(); ++p) {
+    sum += weight[p] * slip[p].squaredNorm();
+    weights += weight[p];
+  }
+  return std::sqrt(sum / weights);
+}
+
 }  // namespace
 
 Coupling::Coupling(fem::Structure& structure, const amr::Forest& forest, const CouplingOptions& options)
@@ -67,6 +77,7 @@ Coupling::Coupling(fem::Structure& structure, const amr::Forest& forest, const C
   }
   position_.resize(points_.size());
   fluid_velocity_.resize(points_.size());
+  slip_.resize(points_.size());
   force_.resize(points_.size());
 }
 
@@ -84,15 +95,20 @@ void Coupling::on_fine_step(fluid::FineStep& step) {
 }
 
 void Coupling::step_with_added_mass(fluid::FineStep& step) {
-  for (int p = 0; p < points_.size(); ++p) position_[p] = structure_->mean_position(p);
+  const int points = points_.size();
+#pragma omp parallel for schedule(static)
+  for (int p = 0; p < points; ++p) position_[p] = structure_->mean_position(p);
   read_fluid(step);
-  for (int p = 0; p < points_.size(); ++p) {
+#pragma omp parallel for schedule(static)
+  for (int p = 0; p < points; ++p) {
     const double m = points_.excess_mass[p], dragged = points_.dragged_mass[p];
-    const Vec3 common = (m * structure_->mean_velocity(p) + dragged * fluid_velocity_[p]) / (m + dragged);
-    structure_->set_mean_velocity(p, common);
+    slip_[p] = fluid_velocity_[p] - structure_->mean_velocity(p);
+    structure_->set_mean_velocity(p, fluid_velocity_[p] - m / (m + dragged) * slip_[p]);
   }
+  record_.slip_before = root_mean_square(slip_, points_.dragged_mass);
   structure_->advance(step.dt, step.time - step.dt);
-  for (int p = 0; p < points_.size(); ++p) {
+#pragma omp parallel for schedule(static)
+  for (int p = 0; p < points; ++p) {
     force_[p] = points_.dragged_mass[p] / step.dt * (structure_->mean_velocity(p) - fluid_velocity_[p]);
   }
   give_to_fluid(step);
@@ -101,6 +117,8 @@ void Coupling::step_with_added_mass(fluid::FineStep& step) {
 void Coupling::step_as_peskin(fluid::FineStep& step) {
   std::ranges::copy(structure_->position(), position_.begin());
   read_fluid(step);
+  for (int p = 0; p < points_.size(); ++p) slip_[p] = fluid_velocity_[p] - structure_->velocity()[p];
+  record_.slip_before = root_mean_square(slip_, points_.dragged_mass);
   const auto [smallest, largest] = structure_->volume_ratio_range();
   if (!(smallest > 0.0)) {
     throw Diverged(fmt::format("body '{}' is torn or inverted (volume ratio {:.3g} to {:.3g}) at t = {:.6g} s",
@@ -125,12 +143,6 @@ void Coupling::step_as_peskin(fluid::FineStep& step) {
 void Coupling::read_fluid(const fluid::FineStep& step) {
   markers_.move_to(position_);
   markers_.interpolate(step, fluid_velocity_);
-  double sum = 0.0, mass = 0.0;
-  for (int p = 0; p < points_.size(); ++p) {
-    sum += points_.dragged_mass[p] * (fluid_velocity_[p] - velocity_of(p)).squaredNorm();
-    mass += points_.dragged_mass[p];
-  }
-  record_.slip_before = std::sqrt(sum / mass);
 }
 
 void Coupling::give_to_fluid(fluid::FineStep& step) {
@@ -151,18 +163,15 @@ Vec3 Coupling::take_mean_force() {
 
 std::array<double, 2> Coupling::slip(const fluid::VelocityView& u) const {
   if (markers_.size() == 0) return {0.0, 0.0};
-  std::vector<Vec3> fluid(points_.size());
-  markers_.interpolate(u, fluid);
-  double along = 0.0, square = 0.0, sheet_mass = 0.0, mass = 0.0;
+  std::vector<Vec3> slip(points_.size());
+  markers_.interpolate(u, slip);
+  double along = 0.0, mass = 0.0;
   for (int p = 0; p < points_.size(); ++p) {
-    const Vec3 slip = fluid[p] - velocity_of(p);
-    const double weight = points_.dragged_mass[p];  // proportional to area on a sheet
-    along += weight * slip.dot(points_.normal[p]);
-    square += weight * slip.squaredNorm();
-    sheet_mass += weight * points_.normal[p].squaredNorm();
-    mass += weight;
+    slip[p] -= velocity_of(p);
+    along += points_.dragged_mass[p] * slip[p].dot(points_.normal[p]);
+    mass += points_.dragged_mass[p] * points_.normal[p].squaredNorm();
   }
-  return {sheet_mass > 0.0 ? along / sheet_mass : 0.0, std::sqrt(square / mass)};
+  return {mass > 0.0 ? along / mass : 0.0, root_mean_square(slip, points_.dragged_mass)};
 }
 
 }  // namespace drogue::fsi

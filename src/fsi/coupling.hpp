@@ -60,7 +60,7 @@ class Coupling : public fluid::FineStepHook {
   CouplingOptions options_;
   CoupledPoints points_;
   ib::Markers markers_;  // one per point
-  std::vector<Vec3> position_, fluid_velocity_, force_;
+  std::vector<Vec3> position_, fluid_velocity_, slip_, force_;
   CouplingRecord record_;
   Vec3 impulse_ = Vec3::Zero();  // on the body since the mean was taken [N s]
   double elapsed_ = 0.0;         // since then [s]

@@ -3,7 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <span>
+#include <vector>
 
 namespace drogue::render {
 namespace {
@@ -31,19 +31,21 @@ constexpr std::array<Colour, 9> blues{{{0.969, 0.984, 1.000},
                                        {0.031, 0.318, 0.612},
                                        {0.031, 0.188, 0.420}}};
 
-std::span<const Colour> stops(ColourMap map) { return map == ColourMap::embers ? std::span(embers) : std::span(blues); }
-
+// The next number that reads well, as do its quarters.
 double round_up(double value) {
   if (value <= 0.0) return 0.0;
-  const double step = std::pow(10.0, std::floor(std::log10(value)) - 1.0);
-  return std::ceil(value / step - 1e-6) * step;
+  constexpr std::array<double, 14> steps{1.0, 1.2, 1.6, 2.0, 2.4, 2.8, 3.2, 3.6, 4.0, 4.8, 5.0, 6.0, 8.0, 10.0};
+  const double power = std::pow(10.0, std::floor(std::log10(value)));
+  return *std::find_if(steps.begin(), steps.end() - 1, [&](double s) { return s * power >= 0.999 * value; }) * power;
 }
 
 }  // namespace
 
 vtkSmartPointer<vtkLookupTable> lookup_table(ColourMap map, const Range& range) {
   constexpr int entries = 256;
-  const auto colours = stops(map);
+  std::vector<Colour> colours(map == ColourMap::embers ? embers.begin() : blues.begin(),
+                              map == ColourMap::embers ? embers.end() : blues.end());
+  if (map == ColourMap::blues_reversed) std::reverse(colours.begin(), colours.end());
   auto table = vtkSmartPointer<vtkLookupTable>::New();
   table->SetNumberOfTableValues(entries);
   table->SetRange(range[0], range[1]);
@@ -59,7 +61,7 @@ vtkSmartPointer<vtkLookupTable> lookup_table(ColourMap map, const Range& range) 
 }
 
 Range round_range(double lowest, double highest) {
-  const Range range{-round_up(-lowest), round_up(highest)};
+  const Range range{-lowest < 0.05 * highest ? 0.0 : -round_up(-lowest), round_up(highest)};
   return range[1] > range[0] ? range : Range{0.0, 1.0};
 }
 

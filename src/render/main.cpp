@@ -69,10 +69,11 @@ std::array<int, 2> parse_size(const std::string& text) {
   return size;
 }
 
-/// What is drawn if nothing is asked for: in a sequence the canopy, else all there is.
-std::string default_what(const RunFolder& run, bool sequence) {
-  if (run.fluid.empty() || (sequence && !run.canopy.empty())) return "canopy";
-  return run.canopy.empty() ? "slice,q" : "canopy,slice,q";
+/// The rows drawn if nothing is asked for.
+std::vector<std::string> default_what(const RunFolder& run, bool sequence) {
+  if (run.fluid.empty() || (sequence && !run.canopy.empty())) return {"canopy"};
+  if (run.canopy.empty()) return {"q", "slice"};
+  return {"canopy,q", "canopy,slice"};
 }
 
 void render_run(const Options& options) {
@@ -82,7 +83,7 @@ void render_run(const Options& options) {
   Picture picture{
       std::filesystem::canonical(run.folder).filename().string(), parse_size(options.size), {}, choice.field};
   Content all;
-  for (const std::string& what : options.what.empty() ? std::vector{default_what(run, sequence)} : options.what) {
+  for (const std::string& what : options.what.empty() ? default_what(run, sequence) : options.what) {
     const Content content = parse_content(what);
     picture.rows.push_back({content, named_view(options.view, content)});
     all = {all.canopy || content.canopy, all.slice || content.slice, all.q || content.q};
@@ -90,6 +91,10 @@ void render_run(const Options& options) {
   std::vector<Scene> scenes;
   for (double time : sequence ? options.sequence : std::vector{options.time.value_or(run.last_time())})
     scenes.push_back(load_scene(run, time, all, choice));
+
+  for (const Scene& scene : scenes)
+    if (all.q && scene.q->GetNumberOfPoints() == 0)
+      fmt::print(stderr, "note: Q does not reach {} 1/s^2 at t = {:.3f} s\n", choice.q, scene.time);
 
   std::filesystem::path output = options.output;
   if (output.empty())

@@ -4,7 +4,9 @@
 #include <fmt/format.h>
 
 #include <vtkActor.h>
+#include <vtkAxesActor.h>
 #include <vtkCamera.h>
+#include <vtkCaptionActor2D.h>
 #include <vtkFeatureEdges.h>
 #include <vtkImageShrink3D.h>
 #include <vtkLightKit.h>
@@ -20,19 +22,18 @@
 #include <vtkTextProperty.h>
 #include <vtkWindowToImageFilter.h>
 
-#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
 
 #include "core/error.hpp"
 #include "io/pending_file.hpp"
+#include "render/colours.hpp"
 
 namespace drogue::render {
 namespace {
 
 constexpr int oversampling = 2;  // pixels are averaged over 2 x 2: smooth edges on any driver
-constexpr double view_angle = 24.0;
 constexpr std::array<double, 3> ink{0.13, 0.15, 0.18};
 
 vtkSmartPointer<vtkActor> surface_actor(vtkPolyData* surface, vtkLookupTable* colours) {
@@ -82,15 +83,22 @@ vtkSmartPointer<vtkRenderer> add_renderer(vtkRenderWindow* window, const Rectang
 
 std::string time_label(const Scene& scene) { return fmt::format("t = {:.2f} s", scene.time); }
 
+void set_style(vtkTextProperty* style, int pixels) {
+  style->SetFontFamilyToArial();
+  style->SetFontSize(pixels);
+  style->SetColor(ink[0], ink[1], ink[2]);
+  style->BoldOff();
+  style->ItalicOff();
+  style->ShadowOff();
+}
+
 void add_text(vtkRenderer* renderer, const std::string& text, double x, double y, int pixels, bool centred) {
   vtkNew<vtkTextActor> actor;
   actor->SetInput(text.c_str());
   actor->GetPositionCoordinate()->SetCoordinateSystemToNormalizedViewport();
   actor->SetPosition(x, y);
   vtkTextProperty* style = actor->GetTextProperty();
-  style->SetFontFamilyToArial();
-  style->SetFontSize(pixels);
-  style->SetColor(ink[0], ink[1], ink[2]);
+  set_style(style, pixels);
   style->SetVerticalJustificationToTop();
   if (centred) style->SetJustificationToCentered();
   renderer->AddViewProp(actor);
@@ -101,20 +109,14 @@ void add_colour_bar(vtkRenderer* renderer, vtkLookupTable* colours, const char* 
   vtkNew<vtkScalarBarActor> bar;
   bar->SetLookupTable(colours);
   bar->SetNumberOfLabels(5);
-  bar->SetLabelFormat("%.3g");
+  bar->SetLabelFormat("  %.3g");
+  bar->SetMaximumNumberOfColors(256);
   bar->SetBarRatio(0.25);
-  bar->SetTextPad(pixels / 3);
   bar->UnconstrainedFontSizeOn();
   bar->SetPosition(0.05, bottom);
   bar->SetWidth(0.7);
   bar->SetHeight(height - 0.05);
-  vtkTextProperty* style = bar->GetLabelTextProperty();
-  style->SetFontFamilyToArial();
-  style->SetFontSize(pixels);
-  style->SetColor(ink[0], ink[1], ink[2]);
-  style->BoldOff();
-  style->ItalicOff();
-  style->ShadowOff();
+  set_style(bar->GetLabelTextProperty(), pixels);
   renderer->AddViewProp(bar);
   add_text(renderer, title, 0.05, bottom + height, pixels, false);
 }
@@ -131,14 +133,13 @@ Range scalar_range(const std::vector<vtkPolyData*>& surfaces) {
   return round_range(lowest, highest);
 }
 
-/// The box of what a row shows of all scenes.
-Box extent(const std::vector<Scene>& scenes, const Content& content) {
-  Box box{Vec3::Constant(1e300), Vec3::Constant(-1e300)};
+/// The boxes of what a row shows of all scenes.
+std::vector<Box> extents(const std::vector<Scene>& scenes, const Content& content) {
+  std::vector<Box> boxes;
   const auto include = [&](vtkPolyData* surface) {
     if (!surface || surface->GetNumberOfPoints() == 0) return;
-    const double* bounds = surface->GetBounds();
-    box.lower = box.lower.cwiseMin(Vec3(bounds[0], bounds[2], bounds[4]));
-    box.upper = box.upper.cwiseMax(Vec3(bounds[1], bounds[3], bounds[5]));
+    const double* b = surface->GetBounds();
+    boxes.push_back({{b[0], b[2], b[4]}, {b[1], b[3], b[5]}});
   };
   for (const Scene& scene : scenes) {
     for (const auto& canopy : scene.canopy)
@@ -146,33 +147,38 @@ Box extent(const std::vector<Scene>& scenes, const Content& content) {
     if (content.slice) include(scene.slice);
     if (content.q) include(scene.q);
   }
-  return (box.upper.array() < box.lower.array()).any() ? Box{Vec3::Constant(-1.0), Vec3::Constant(1.0)} : box;
+  if (boxes.empty()) boxes.push_back({Vec3::Constant(-1.0), Vec3::Constant(1.0)});
+  return boxes;
 }
 
-/// Places the camera as near as it can be with the whole box inside a picture of `aspect` width over height.
-void fit(vtkCamera* camera, const Box& box, const View& view, double aspect) {
-  const Vec3 back = view.from.normalized(), right = view.up.cross(back).normalized(), up = back.cross(right);
-  const double tangent = std::tan(0.5 * view_angle * M_PI / 180.0), margin = 1.06;
-  const Vec3 centre = 0.5 * (box.lower + box.upper);
-  double distance = 0.0;
-  for (int corner = 0; corner < 8; ++corner) {
-    Vec3 p;
-    for (int a = 0; a < 3; ++a) p[a] = (corner >> a & 1 ? box.upper : box.lower)[a] - centre[a];
-    const double needed = std::max(std::abs(p.dot(right)) / (tangent * aspect), std::abs(p.dot(up)) / tangent);
-    distance = std::max(distance, margin * needed + p.dot(back));
+/// Small axes, as seen from where the row is seen.
+void add_axes(vtkRenderWindow* window, const Rectangle& place, const View& view, int text) {
+  const auto renderer = add_renderer(window, place);
+  vtkNew<vtkAxesActor> axes;
+  axes->SetShaftTypeToCylinder();
+  axes->SetCylinderRadius(0.03);
+  axes->SetConeRadius(0.25);
+  axes->SetNormalizedLabelPosition(1.35, 1.35, 1.35);
+  axes->SetXAxisLabelText("x");
+  axes->SetYAxisLabelText("y");
+  axes->SetZAxisLabelText("z");
+  for (vtkCaptionActor2D* caption :
+       {axes->GetXAxisCaptionActor2D(), axes->GetYAxisCaptionActor2D(), axes->GetZAxisCaptionActor2D()}) {
+    caption->GetTextActor()->SetTextScaleModeToNone();
+    set_style(caption->GetCaptionTextProperty(), text * 2 / 3);
   }
-  const Vec3 eye = centre + distance * back;
-  camera->SetFocalPoint(centre.x(), centre.y(), centre.z());
-  camera->SetPosition(eye.x(), eye.y(), eye.z());
-  camera->SetViewUp(up.x(), up.y(), up.z());
-  camera->SetViewAngle(view_angle);
+  for (vtkProperty* part : {axes->GetXAxisShaftProperty(), axes->GetYAxisShaftProperty(), axes->GetZAxisShaftProperty(),
+                            axes->GetXAxisTipProperty(), axes->GetYAxisTipProperty(), axes->GetZAxisTipProperty()})
+    part->SetColor(ink[0], ink[1], ink[2]);
+  renderer->AddActor(axes);
+  fit(renderer->GetActiveCamera(), {{Vec3::Constant(-0.6), Vec3::Constant(1.4)}}, view, 1.0);
 }
 
 struct Colours {
   vtkSmartPointer<vtkLookupTable> displacement, field;  // null where nothing is coloured by it
 };
 
-Colours common_colours(const std::vector<Scene>& scenes) {
+Colours common_colours(const std::vector<Scene>& scenes, Quantity field) {
   std::vector<vtkPolyData*> canopies, slices, isos;
   for (const Scene& scene : scenes) {
     for (const auto& canopy : scene.canopy) canopies.push_back(canopy);
@@ -182,7 +188,8 @@ Colours common_colours(const std::vector<Scene>& scenes) {
   Colours colours;
   if (!canopies.empty()) colours.displacement = lookup_table(ColourMap::embers, scalar_range(canopies));
   if (!slices.empty() || !isos.empty())
-    colours.field = lookup_table(ColourMap::blues, scalar_range(slices.empty() ? isos : slices));
+    colours.field = lookup_table(field == Quantity::speed ? ColourMap::blues_reversed : ColourMap::blues,
+                                 scalar_range(slices.empty() ? isos : slices));
   return colours;
 }
 
@@ -248,18 +255,6 @@ void write_png(vtkRenderWindow* window, const std::filesystem::path& png) {
 
 }  // namespace
 
-View named_view(const std::string& name, const Content& content) {
-  if (name == "iso") return {{-0.55, 0.45, 1.0}, Vec3::UnitY()};
-  if (name == "back") return {{0.8, 0.45, 1.0}, Vec3::UnitY()};
-  if (name == "upstream") return {-Vec3::UnitX(), Vec3::UnitY()};
-  if (name == "downstream") return {Vec3::UnitX(), Vec3::UnitY()};
-  if (name == "side") return {Vec3::UnitZ(), Vec3::UnitY()};
-  if (name == "top") return {Vec3::UnitY(), -Vec3::UnitZ()};
-  if (name == "auto") return named_view(content.q ? "iso" : content.slice ? "side" : "back", content);
-  throw InputError(
-      fmt::format("view \"{}\" is not known; expected auto, iso, back, upstream, downstream, side or top", name));
-}
-
 void draw(const std::vector<Scene>& scenes, const Picture& picture, const std::filesystem::path& png) {
   if (!std::getenv("DISPLAY")) throw InputError("no display to draw on: run under \"xvfb-run -a\"");
   const int width = picture.size[0] * oversampling, height = picture.size[1] * oversampling;
@@ -270,31 +265,37 @@ void draw(const std::vector<Scene>& scenes, const Picture& picture, const std::f
   window->SetMultiSamples(0);
   window->SetAlphaBitPlanes(1);
 
-  const Colours colours = common_colours(scenes);
+  add_renderer(window, {0.0, 0.0, 1.0, 1.0});  // white paper under the panels
+  const Colours colours = common_colours(scenes, picture.field);
   const int text = static_cast<int>(std::sqrt(width * height) / 44.0);
   const double strip = add_legend(window, colours, picture.field, text, width);
-  const double header = 1.8 * text / height;  // of the height, for the title
-  const Rectangle area{0.0, 0.0, 1.0 - strip, 1.0 - header};
+  const bool sequence = scenes.size() > 1;
+  const double header = (sequence ? 4.0 : 2.2) * text / height;  // of the height: title, and times above the columns
+  const double gutter = 5.0 * text / width;                      // of the width, for the axes
+  const Rectangle area{gutter, 0.0, 1.0 - strip - gutter, 1.0 - header};
   const double panel_width = area.width / scenes.size(), panel_height = area.height / picture.rows.size();
 
   vtkNew<vtkLightKit> lights;
   lights->SetKeyLightIntensity(0.95);
   for (std::size_t r = 0; r < picture.rows.size(); ++r) {
     const auto& [content, view] = picture.rows[r];
-    const Box box = extent(scenes, content);
+    const std::vector<Box> boxes = extents(scenes, content);
+    const double bottom = (picture.rows.size() - 1 - r) * panel_height;
+    add_axes(window, {0.0, bottom, gutter, 5.0 * text / height}, view, text);
     for (std::size_t s = 0; s < scenes.size(); ++s) {
-      const Rectangle panel{s * panel_width, (picture.rows.size() - 1 - r) * panel_height, panel_width, panel_height};
+      const Rectangle panel{area.left + s * panel_width, bottom, panel_width, panel_height};
       const auto renderer = add_renderer(window, panel);
       add_scene(renderer, scenes[s], content, colours, 0.0016 * height);
       lights->AddLightsToRenderer(renderer);
-      fit(renderer->GetActiveCamera(), box, view, panel_width * width / (panel_height * height));
+      fit(renderer->GetActiveCamera(), boxes, view, panel_width * width / (panel_height * height));
       renderer->ResetCameraClippingRange();
-      if (scenes.size() > 1 && r == 0) add_text(renderer, time_label(scenes[s]), 0.5, 1.0, text, true);
     }
   }
-  const auto title = add_renderer(window, {0.0, 1.0 - header, 1.0 - strip, header});
-  add_text(title, scenes.size() > 1 ? picture.title : picture.title + "     " + time_label(scenes[0]), 0.015, 0.8, text,
-           false);
+  const auto head = add_renderer(window, {0.0, area.height, 1.0 - strip, header});
+  add_text(head, sequence ? picture.title : picture.title + "     " + time_label(scenes[0]), 0.015,
+           sequence ? 0.85 : 0.75, text, false);
+  for (std::size_t s = 0; sequence && s < scenes.size(); ++s)
+    add_text(head, time_label(scenes[s]), (area.left + (s + 0.5) * panel_width) / (1.0 - strip), 0.4, text, true);
   window->Render();
   write_png(window, png);
 }

@@ -8,18 +8,10 @@
 #include <string>
 #include <vector>
 
-#include "render/colours.hpp"
 #include "render/scene.hpp"
+#include "render/view.hpp"
 
 namespace drogue::render {
-
-struct View {
-  Vec3 from;  ///< direction from the scene to the camera
-  Vec3 up;
-};
-
-/// iso, back, upstream, downstream, side, top; or auto: what suits the content. Throws InputError naming the choices.
-View named_view(const std::string& name, const Content& content);
 
 struct Row {
   Content content;

@@ -131,7 +131,7 @@ Box near_wake(const std::vector<vtkSmartPointer<vtkPolyData>>& canopies, const B
   }
   const double length = box.size().tail<2>().maxCoeff();
   box.lower -= length * Vec3(1.0, 0.6, 0.6);
-  box.upper += length * Vec3(2.5, 0.6, 0.6);
+  box.upper += length * Vec3(4.0, 0.6, 0.6);
   return box;
 }
 
@@ -150,7 +150,8 @@ const char* quantity_name(Quantity quantity) {
 }
 
 double read_canopy_time(const std::filesystem::path& file) {
-  vtkDataArray* time = read_canopy(file)->GetFieldData()->GetArray("TimeValue");
+  const auto grid = read_canopy(file);
+  vtkDataArray* time = grid->GetFieldData()->GetArray("TimeValue");
   return time ? time->GetComponent(0, 0) : 0.0;
 }
 

@@ -217,11 +217,11 @@ TEST(Structure, tethers_carry_a_load_with_displacement_load_over_stiffness) {
   const Vec3 acceleration(3.0, -1.0, 2.0);
   for (const double factor : {0.5, 1.0, 20.0}) {
     // Critically damped; an impulse per sub-step shifts the balance by dissipation x damping x dt, so there is none.
-    const double stiffness = 1e6, damping = 2.0 * std::sqrt(stiffness * factor), dt = 1e-5;
+    const double stiffness = 1e6, damping = 2.0 * std::sqrt(stiffness * factor), dt = 5e-5;
     Structure plate(mesh, neo_hookean, {.density = 1.0, .dissipation = 0.0},
                     {{all_nodes(mesh), false, stiffness, damping}});
     plate.set_inertia(paired(plate, factor));
-    for (int step = 0; step < 10000; ++step) {
+    for (int step = 0; step < 2000; ++step) {
       push(plate, acceleration, dt);
       plate.advance(dt, 0.0);
     }
@@ -276,7 +276,7 @@ TEST(Structure, rigid_hold_is_the_limit_of_stiff_tethers_and_its_reaction_is_the
 
 TEST(Structure, every_number_of_threads_gives_the_same_bits) {
   const int threads_before = omp_get_max_threads();
-  const HexMesh mesh = make_plate({Vec3::Zero(), 0, {0.2, 0.2}, 5e-3, {15, 13, 1}});
+  const HexMesh mesh = make_plate({Vec3::Zero(), 0, {0.4, 0.4}, 5e-3, {35, 32, 1}});
   const auto v = random_vectors(mesh.nodes.size(), 0.5, 8);
   std::vector<Vec3> reference_position;
   Vec3 reference_reaction;

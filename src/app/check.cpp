@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <fmt/format.h>
+
+#include <cmath>
+#include <numeric>
+
+#include "app/case_reader.hpp"
+#include "app/inspect.hpp"
+#include "app/scene.hpp"
+
+namespace drogue::app {
+
+namespace {
+
+constexpr double bytes_per_cell = 2.0 * 28.0;  // two buffers of ten moments
+constexpr double usual_mlups = 200.0;          // of two cores
+
+std::string fluid_text(const Case& c) {
+  const fluid::Specification& f = c.fluid;
+  const double length = c.reference_length;
+  std::string text =
+      fmt::format("fluid   Mach {:.3g} ({:.3g} m/s is {:.3g} cells a step), viscosity {:.4g} m^2/s",
+                  std::sqrt(3.0) * f.lattice_velocity, f.reference_velocity, f.lattice_velocity, f.viscosity);
+  if (length > 0.0) text += fmt::format(", Reynolds number {:.4g}", f.reference_velocity * length / f.viscosity);
+  return text + "\n";
+}
+
+std::string grid_text(const Case& c, const amr::Forest& forest) {
+  std::string text = fmt::format("\n{:>7} {:>13} {:>12} {:>12} {:>12} {:>9}\n", "level", "spacing [m]", "step [s]",
+                                 "tau", "cells", "blocks");
+  std::int64_t cells = 0;
+  for (int level = 0; level < forest.levels(); ++level) {
+    text += fmt::format("{:>7} {:>13.6g} {:>12.4g} {:>12.7f} {:>12} {:>9}\n", level, forest.spacing(level),
+                        time_step(c, level), relaxation_time(c, level), forest.cells(level),
+                        forest.range(level, amr::Kind::leaf).size());
+    cells += forest.cells(level);
+  }
+  return text + fmt::format("{:>7} {:>13} {:>12} {:>12} {:>12}\n\n", "all", "", "", "", cells);
+}
+
+std::string cost_text(const Case& c, const amr::Forest& forest) {
+  double updates_a_step = 0.0;
+  for (int level = 0; level < forest.levels(); ++level) {
+    updates_a_step += std::ldexp(static_cast<double>(forest.cells(level)), level);
+  }
+  const double steps = std::ceil(c.end / time_step(c, 0) * (1.0 - 1e-9));
+  const double memory = bytes_per_cell * amr::block_cells * forest.size();
+  return fmt::format(
+      "run     {} s in {} coarse steps, {:.3g} cell updates: {:.0f} s at {:.0f} MLUPS; about {:.2f} GiB\n", c.end,
+      steps, steps * updates_a_step, steps * updates_a_step / (1e6 * usual_mlups), usual_mlups,
+      memory / std::pow(1024.0, 3));
+}
+
+double sum(std::span<const double> values) { return std::accumulate(values.begin(), values.end(), 0.0); }
+
+std::string body_text(const Case& c, const CoupledBody& body, int finest) {
+  const fem::Structure& s = body.structure;
+  const double stable = body.description.structure.safety * 2.0 / s.largest_frequency();
+  std::string text = fmt::format(
+      "body    {}: {} nodes, {} elements, {} points on the fluid; mass {:.4g} kg, {:.4g} kg with the fluid it drags\n"
+      "        stable step {:.3g} s, {:.0f} sub-steps in a fine step of {:.3g} s\n",
+      body.description.name, s.mesh().nodes.size(), s.mesh().elements.size(), s.inertia().point.size(),
+      sum(s.own_mass()), sum(s.inertia().mass), stable, std::ceil(time_step(c, finest) / stable), time_step(c, finest));
+  for (const HoldDescription& hold : body.description.holds) {
+    const std::vector<int> nodes = held_nodes(c, body.description, hold, s.mesh());
+    double volume = 0.0;
+    for (int node : nodes) volume += s.volume()[node];
+    text += fmt::format("        holds {}: {} nodes, {}\n", hold.nodes, nodes.size(),
+                        hold.rigid ? "rigid" : fmt::format("{:.4g} N/m in all", hold.stiffness * volume));
+  }
+  return text;
+}
+
+}  // namespace
+
+std::string check_report(const std::filesystem::path& path, const std::vector<std::string>& overrides) {
+  const Case c = read_case(path, overrides);
+  const auto folder = std::filesystem::temp_directory_path() / fmt::format("drogue-check-{}", c.name);
+  const std::vector<fem::HexMesh> meshes = load_meshes(c, folder);
+  const amr::Forest forest = make_forest(c, meshes);
+  const auto bodies = make_bodies(c, meshes, forest);
+
+  std::string text = fmt::format("{}\n\n", c.title.empty() ? c.name : c.title);
+  text += fluid_text(c) + grid_text(c, forest) + cost_text(c, forest);
+  for (const auto& body : bodies) text += body_text(c, *body, forest.finest());
+  return text + fmt::format("{} is in order\n", c.file.string());
+}
+
+}  // namespace drogue::app

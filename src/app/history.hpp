@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// history.csv: one row per output interval. A column is added in history.cpp, in one of its two lists.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <filesystem>
+#include <fstream>
+#include <string>
+#include <vector>
+
+#include "app/results.hpp"
+#include "core/types.hpp"
+
+namespace drogue::app {
+
+/// What a row tells of a body. Forces are means since the row before, the rest is at the row's time.
+struct BodyRow {
+  Vec3 force = Vec3::Zero();  ///< by the fluid [N]
+  double c_d = 0.0;
+  Vec3 centre = Vec3::Zero();                         ///< displacement [m]
+  Vec3 reaction = Vec3::Zero();                       ///< of the holds on the body [N]
+  double elastic_energy = 0.0, kinetic_energy = 0.0;  ///< [J]
+  std::array<double, 2> face_difference{};  ///< velocity of one face less the other's: along normal, in full [m/s]
+  double thickness_stretch = 1.0;
+  std::array<double, 2> volume_ratio{1.0, 1.0};  ///< smallest and largest J
+  std::array<double, 2> slip{};                  ///< of the fluid past the body: along normal, rms [m/s]
+  int substeps = 0;
+};
+
+struct Row {
+  double time = 0.0;  ///< [s]
+  std::vector<BodyRow> bodies;
+  double max_mach = 0.0;
+  double mass_drift = 0.0;        ///< relative, since the start
+  std::int64_t cell_updates = 0;  ///< since the start
+  double mlups = 0.0;             ///< million cell updates a second, since the row before
+};
+
+class History {
+ public:
+  /// Writes the header. Throws std::runtime_error naming the file.
+  History(const std::filesystem::path& file, const std::vector<std::string>& bodies, std::size_t summarised_body);
+
+  void append(const Row& row);
+  /// The rows so far of the body that is summarised; empty without bodies.
+  const Trace& trace() const { return trace_; }
+
+ private:
+  void put_line(const std::vector<std::string>& cells);
+
+  std::filesystem::path file_;
+  std::ofstream stream_;
+  std::size_t summarised_body_;
+  Trace trace_;
+};
+
+}  // namespace drogue::app

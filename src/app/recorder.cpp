@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "app/recorder.hpp"
+
+#include <algorithm>
+
+namespace drogue::app {
+
+namespace {
+
+std::vector<std::string> names_of(const std::vector<Body>& bodies) {
+  std::vector<std::string> names;
+  for (const Body& body : bodies) names.push_back(body.name);
+  return names;
+}
+
+std::size_t summarised_body(const Case& c) {
+  return static_cast<std::size_t>(std::ranges::find(c.bodies, c.results.body, &Body::name) - c.bodies.begin());
+}
+
+}  // namespace
+
+Recorder::Recorder(const Case& c, const Simulation& simulation, const std::filesystem::path& folder)
+    : case_(c),
+      flow_direction_(flow_direction(c)),
+      history_(folder / "history.csv", names_of(c.bodies), summarised_body(c)),
+      row_due_(c.output.history, Schedule::Zero::always),
+      snapshots_(c.output, folder),
+      mass_at_start_(simulation.fluid().mass_and_momentum()[0]) {
+  const Timed timed(watch_);
+  row_due_.due(simulation.time(), simulation.fluid().coarse_dt());
+  snapshots_.write_due(simulation.fluid(), simulation.bodies());
+}
+
+void Recorder::record(const Simulation& simulation, bool last) {
+  const Timed timed(watch_);
+  if (row_due_.due(simulation.time(), simulation.fluid().coarse_dt()) || last) write_row(simulation);
+  snapshots_.write_due(simulation.fluid(), simulation.bodies());
+}
+
+std::optional<double> Recorder::c_d() const {
+  return trace().c_d.empty() ? std::nullopt : std::optional(trace().c_d.back());
+}
+
+void Recorder::write_row(const Simulation& simulation) {
+  const fluid::FluidSolver& fluid = simulation.fluid();
+  const std::int64_t updates = fluid.statistics().cell_updates;
+  mlups_ = 1e-6 * static_cast<double>(updates - updates_at_row_) / (simulation.step_seconds() - seconds_at_row_);
+  updates_at_row_ = updates;
+  seconds_at_row_ = simulation.step_seconds();
+
+  Row row;
+  row.time = fluid.time();
+  for (const auto& body : simulation.bodies()) row.bodies.push_back(measure(*body, fluid));
+  row.max_mach = fluid.statistics().max_mach;
+  row.mass_drift = fluid.mass_and_momentum()[0] / mass_at_start_ - 1.0;
+  row.cell_updates = updates;
+  row.mlups = mlups_;
+  history_.append(row);
+}
+
+BodyRow Recorder::measure(CoupledBody& body, const fluid::FluidSolver& fluid) const {
+  const fem::Structure& structure = body.structure;
+  const double speed = case_.fluid.reference_velocity;
+  const double dynamic_pressure = 0.5 * case_.fluid.density * speed * speed;
+  BodyRow row;
+  row.force = body.coupling.take_mean_force();
+  row.c_d = row.force.dot(flow_direction_) / (dynamic_pressure * body.description.reference_area);
+  row.centre = structure.mean_position(body.centre_point) - body.centre_reference;
+  row.reaction = structure.reaction();
+  row.elastic_energy = structure.elastic_energy();
+  row.kinetic_energy = structure.kinetic_energy();
+  row.face_difference = structure.face_velocity_difference();
+  row.thickness_stretch = structure.mean_thickness_stretch();
+  row.volume_ratio = structure.volume_ratio_range();
+  row.slip = body.coupling.slip(fluid.fine_velocity());
+  row.substeps = structure.substeps();
+  return row;
+}
+
+}  // namespace drogue::app

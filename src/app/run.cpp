@@ -1,0 +1,143 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "app/run.hpp"
+
+#include <fmt/format.h>
+#include <omp.h>
+#include <sys/resource.h>
+
+#include <exception>
+#include <fstream>
+
+#include "app/case_reader.hpp"
+#include "app/interrupt.hpp"
+#include "app/progress.hpp"
+#include "app/recorder.hpp"
+#include "app/run_folder.hpp"
+#include "app/simulation.hpp"
+#include "app/summary.hpp"
+#include "app/version.hpp"
+#include "core/error.hpp"
+#include "core/log.hpp"
+
+namespace drogue::app {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+std::int64_t peak_rss_bytes() {
+  rusage usage{};
+  getrusage(RUSAGE_SELF, &usage);
+  return std::int64_t{usage.ru_maxrss} * 1024;
+}
+
+void announce(const Case& c, const Simulation& simulation, const fs::path& folder, Log& log) {
+  const amr::Forest& forest = simulation.fluid().forest();
+  std::int64_t cells = 0;
+  for (int level = 0; level < forest.levels(); ++level) cells += forest.cells(level);
+  log.info("{}", c.title.empty() ? c.name : c.title);
+  log.info("{:.2f} million cells on {} levels, steps of {:.4g} s, {} threads; writing to {}",
+           1e-6 * static_cast<double>(cells), forest.levels(), simulation.fluid().coarse_dt(), omp_get_max_threads(),
+           folder.string());
+}
+
+void write_text(const fs::path& file, const std::string& text) {
+  std::ofstream stream(file);
+  stream << text << std::flush;
+  if (!stream) throw InputError(fmt::format("{} cannot be written", file.string()));
+}
+
+/// Steps until `end` [s]; false if interrupted.
+bool step_until(double end, Simulation& simulation, Recorder& recorder, Progress& progress,
+                const Interrupt& interrupt) {
+  const double last = end - 1e-6 * simulation.fluid().coarse_dt();
+  while (simulation.time() < last) {
+    if (interrupt.requested()) return false;
+    simulation.step();
+    recorder.record(simulation, simulation.time() >= last);
+    progress.update(simulation.time(), recorder.mlups(), recorder.c_d());
+  }
+  return true;
+}
+
+Summary summarise_run(const Case& c, const Simulation& simulation, const Recorder& recorder, double wall_seconds) {
+  const amr::Forest& forest = simulation.fluid().forest();
+  Summary s;
+  s.case_name = c.name;
+  s.title = c.title;
+  s.fluid = c.solver;
+  s.version = version;
+  s.threads = omp_get_max_threads();
+  s.t_end = simulation.time();
+  s.wall_seconds = wall_seconds;
+  s.cell_updates = simulation.fluid().statistics().cell_updates;
+  const double stepping = simulation.step_seconds(), coupling = simulation.coupling_seconds();
+  s.mlups = stepping > 0.0 ? 1e-6 * static_cast<double>(s.cell_updates) / stepping : 0.0;
+  s.peak_rss_bytes = peak_rss_bytes();
+  for (int level = 0; level < forest.levels(); ++level) s.cells_per_level.push_back(forest.cells(level));
+  const double structure = simulation.structure_seconds(), io = recorder.seconds();
+  s.time_share = {{"fluid", (stepping - coupling) / wall_seconds},
+                  {"ib", (coupling - structure) / wall_seconds},
+                  {"structure", structure / wall_seconds},
+                  {"io", io / wall_seconds},
+                  {"other", (wall_seconds - stepping - io) / wall_seconds}};
+  if (!c.bodies.empty()) s.results = summarise(recorder.trace(), c.results);
+  s.references = compare(s.results, c.references);
+  return s;
+}
+
+}  // namespace
+
+int run_case(const RunOptions& options) {
+  const Elapsed wall;
+
+  // 1. What is asked for, and whether it may be written.
+  const Case c = read_case(options.path, options.overrides);
+  const fs::path folder = options.folder.empty() ? fs::path("runs") / c.name : options.folder;
+  const double end = options.until.value_or(c.end);
+  refuse_other_run(folder, options.force);
+
+  // 2. The machine: signals before threads, which inherit them.
+  const Interrupt interrupt;
+  if (options.threads) omp_set_num_threads(*options.threads);
+
+  // 3. Grid, fluid and bodies.
+  Simulation simulation(c, folder);
+
+  // 4. The folder of the run.
+  prepare_run_folder(folder);
+  write_text(folder / "case.resolved.toml", c.resolved);
+  Log log(options.quiet);
+  log.open(folder / "log.txt");
+  announce(c, simulation, folder, log);
+  Recorder recorder(c, simulation, folder);
+
+  // 5. Time.
+  Ending ending = Ending::failed;
+  std::string message;
+  std::exception_ptr failure;
+  try {
+    Progress progress(end, options.quiet);
+    const bool arrived = step_until(end, simulation, recorder, progress, interrupt);
+    ending = arrived ? Ending::finished : Ending::interrupted;
+  } catch (const Diverged& error) {
+    ending = Ending::diverged;
+    message = error.what();
+    failure = std::current_exception();
+  } catch (const std::exception& error) {
+    message = error.what();
+    failure = std::current_exception();
+  }
+
+  // 6. What came of it.
+  Summary summary = summarise_run(c, simulation, recorder, wall.seconds());
+  summary.ending = ending;
+  summary.message = message;
+  write_summary(summary, folder / "summary.json");
+  print_summary(summary, log);
+  if (ending == Ending::interrupted) log.warn("interrupted at {:.6g} s", simulation.time());
+  if (failure) std::rethrow_exception(failure);
+  return ending == Ending::interrupted ? 130 : 0;
+}
+
+}  // namespace drogue::app

@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "app/simulation.hpp"
+
+#include "lbm/solver.hpp"
+
+namespace drogue::app {
+
+/// All bodies, one after the other, and how long they take.
+class Simulation::TimedHook : public fluid::FineStepHook {
+ public:
+  explicit TimedHook(std::vector<std::unique_ptr<CoupledBody>>& bodies) : bodies_(bodies) {}
+
+  void on_fine_step(fluid::FineStep& step) override {
+    const Timed timed(watch_);
+    for (auto& body : bodies_) body->coupling.on_fine_step(step);
+  }
+  double seconds() const { return watch_.seconds(); }
+
+ private:
+  std::vector<std::unique_ptr<CoupledBody>>& bodies_;
+  Stopwatch watch_;
+};
+
+Simulation::Simulation(const Case& c, const std::filesystem::path& folder) {
+  const std::vector<fem::HexMesh> meshes = load_meshes(c, folder);
+  fluid_ = std::make_unique<lbm::Solver>(make_forest(c, meshes), c.fluid);
+  bodies_ = make_bodies(c, meshes, fluid_->forest());
+  hook_ = std::make_unique<TimedHook>(bodies_);
+}
+
+Simulation::~Simulation() = default;
+
+void Simulation::step() {
+  const Timed timed(stepping_);
+  fluid_->step(bodies_.empty() ? nullptr : hook_.get());
+}
+
+double Simulation::structure_seconds() const {
+  double seconds = 0.0;
+  for (const auto& body : bodies_) seconds += body->coupling.structure_seconds();
+  return seconds;
+}
+
+double Simulation::coupling_seconds() const { return hook_->seconds(); }
+
+}  // namespace drogue::app

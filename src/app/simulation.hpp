@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Fluid and bodies of a case, stepped together.
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <vector>
+
+#include "app/case.hpp"
+#include "app/scene.hpp"
+#include "core/stopwatch.hpp"
+#include "fluid/fluid_solver.hpp"
+
+namespace drogue::app {
+
+class Simulation {
+ public:
+  /// Builds grid, fluid and bodies; a mesh that must be generated goes to `folder`. Throws InputError.
+  Simulation(const Case& c, const std::filesystem::path& folder);
+  ~Simulation();
+
+  /// One coarse step. Throws Diverged, and InputError for a body that left the fine grid.
+  void step();
+
+  double time() const { return fluid_->time(); }  ///< [s]
+  const fluid::FluidSolver& fluid() const { return *fluid_; }
+  const std::vector<std::unique_ptr<CoupledBody>>& bodies() const { return bodies_; }
+
+  /// Wall time [s] spent in steps so far, in all and by part.
+  double step_seconds() const { return stepping_.seconds(); }
+  double structure_seconds() const;
+  double coupling_seconds() const;  ///< structure and immersed boundary
+
+ private:
+  class TimedHook;
+
+  std::unique_ptr<fluid::FluidSolver> fluid_;
+  std::vector<std::unique_ptr<CoupledBody>> bodies_;
+  std::unique_ptr<TimedHook> hook_;
+  Stopwatch stepping_;
+};
+
+}  // namespace drogue::app

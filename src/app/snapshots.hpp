@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Snapshots of flow and bodies at their intervals, listed in frames.csv and in ParaView's series files.
+#pragma once
+
+#include <filesystem>
+#include <fstream>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "app/case.hpp"
+#include "app/scene.hpp"
+#include "app/schedule.hpp"
+#include "fluid/fluid_solver.hpp"
+
+namespace drogue::app {
+
+class Snapshots {
+ public:
+  Snapshots(const Output& output, const std::filesystem::path& folder);
+
+  /// Writes what is due. Throws std::runtime_error naming the file.
+  void write_due(const fluid::FluidSolver& fluid, const std::vector<std::unique_ptr<CoupledBody>>& bodies);
+
+ private:
+  void write_fluid(const fluid::FluidSolver& fluid);
+  void write_bodies(double time, const std::vector<std::unique_ptr<CoupledBody>>& bodies);
+  void list(const std::string& kind, int index, double time, const std::string& series, const std::string& file);
+
+  std::filesystem::path folder_;
+  std::ofstream frames_;
+  Schedule fluid_due_, canopy_due_;
+  int fluid_index_ = 0, canopy_index_ = 0;
+};
+
+}  // namespace drogue::app

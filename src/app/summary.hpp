@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// What is left of a run when it ends: summary.json, and a table for the reader.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "app/results.hpp"
+#include "core/log.hpp"
+
+namespace drogue::app {
+
+enum class Ending { finished, interrupted, diverged, failed };
+
+struct Summary {
+  std::string case_name, title, fluid, version;
+  int threads = 1;
+  Ending ending = Ending::failed;
+  std::string message;  ///< why, if it did not finish
+  double t_end = 0.0;   ///< [s] reached
+  double wall_seconds = 0.0;
+  std::int64_t cell_updates = 0;
+  double mlups = 0.0;  ///< million cell updates a second, while stepping
+  std::int64_t peak_rss_bytes = 0;
+  std::vector<std::int64_t> cells_per_level;
+  std::vector<std::pair<std::string, double>> time_share;  ///< parts of the wall time, which add up to 1
+  std::vector<Result> results;
+  std::vector<Comparison> references;
+};
+
+std::string to_json(const Summary& summary);
+/// Throws std::runtime_error naming the file.
+void write_summary(const Summary& summary, const std::filesystem::path& file);
+void print_summary(const Summary& summary, Log& log);
+
+}  // namespace drogue::app
