@@ -25,12 +25,6 @@ const Choices<int> axes{{"x", 0}, {"y", 1}, {"z", 2}};
 const Choices<fsi::Scheme> schemes{{"added_mass", fsi::Scheme::added_mass}, {"peskin", fsi::Scheme::peskin}};
 const Choices<ib::Delta> deltas{{"peskin4", ib::Delta::peskin4}, {"peskin3", ib::Delta::peskin3}};
 
-/// A default that follows from other values: none to tell of while describing.
-template <class T>
-std::optional<T> derived(const Section& section, const T& value) {
-  return section.describing() ? std::nullopt : std::optional(value);
-}
-
 fluid::Face read_face(Section face) {
   fluid::Face result;
   result.type = face.choose("type", boundaries, {.doc = "what happens at this side"});
@@ -80,7 +74,7 @@ void read_initial_state(Section& section, Case& c) {
     c.fluid.initial_velocity = section.get<Formulas>(
         "initial_velocity", {.unit = "m/s",
                              .doc = "at t = 0, with initial = \"uniform\"; by default that of the first velocity side",
-                             .fallback = derived(section, inflow)});
+                             .derived = inflow});
   }
   c.fluid.initial_pressure =
       section.find<Expression>("initial_pressure", {.unit = "Pa", .doc = "gauge, at t = 0; zero if absent"});
@@ -102,7 +96,7 @@ void read_fluid(Section section, Case& c) {
   if (reynolds) viscosity = fluid.reference_velocity * c.reference_length / *reynolds;
   fluid.viscosity = section.get<double>(
       "viscosity",
-      {.unit = "m^2/s", .doc = "kinematic; or give fluid.reynolds", .fallback = viscosity, .range = positive});
+      {.unit = "m^2/s", .doc = "kinematic; or give fluid.reynolds", .derived = viscosity, .range = positive});
   if (viscosity && std::abs(fluid.viscosity / *viscosity - 1.0) > 1e-6) {
     section.fail("viscosity", fmt::format("= {} contradicts fluid.reynolds = {}, which makes it {}; give one of them",
                                           fluid.viscosity, *reynolds, *viscosity));
@@ -126,10 +120,9 @@ void read_grid(Section grid, Case& c) {
   grid.each("region", "where the grid is fine: a box, or around a body", [&](Section& region) {
     Region& r = c.regions.emplace_back();
     const bool all = region.describing();
-    r.spacing = region.get<double>("spacing", {.unit = "m",
-                                               .doc = "cell edge there; by default grid.finest",
-                                               .fallback = derived(region, c.finest),
-                                               .range = positive});
+    r.spacing = region.get<double>(
+        "spacing",
+        {.unit = "m", .doc = "cell edge there; by default grid.finest", .derived = c.finest, .range = positive});
     r.box = region.find<Box>("box", {.unit = "m", .doc = "the region, instead of body"});
     if (all || !r.box) {
       r.body = region.get<std::string>("body", {.doc = "name of the body the region surrounds, instead of box"});
@@ -181,7 +174,7 @@ fem::Material read_material(Section section) {
     stabilisation = section.get<double>(
         "poisson_stabilisation",
         {.doc = "ratio behind the bulk modulus, for law = \"neo_hookean\"; by default that of poisson",
-         .fallback = derived(section, poisson),
+         .derived = poisson,
          .range = ratio});
   }
   if (section.describing()) return fem::SaintVenantKirchhoff(1.0, 0.0);
@@ -240,12 +233,12 @@ Body read_body(Section& section, double fluid_density) {
   const fem::StructureOptions structure = read_structure(section);
   std::optional<double> area;
   if (const auto* plate = std::get_if<fem::PlateDescription>(&mesh)) {
-    area = derived(section, plate->size[0] * plate->size[1]);
+    area = plate->size[0] * plate->size[1];
   }
   const double reference_area =
       section.get<double>("reference_area", {.unit = "m^2",
                                              .doc = "of the drag coefficient; by default that of a plate",
-                                             .fallback = area,
+                                             .derived = area,
                                              .range = positive});
   Body body{.name = name,
             .mesh = mesh,
@@ -272,13 +265,13 @@ void read_output(Section section, Case& c) {
 
 void read_results(Section section, Case& c) {
   const std::string first = c.bodies.empty() ? "" : c.bodies.front().name;
-  c.results.body = section.get<std::string>(
-      "body", {.doc = "whose results are summarised; by default the first", .fallback = derived(section, first)});
+  c.results.body =
+      section.get<std::string>("body", {.doc = "whose results are summarised; by default the first", .derived = first});
   c.results.stable_window =
       section
           .find<Pair>("stable_window", {.unit = "s",
                                         .doc = "over which stable values are averaged; by default the second half",
-                                        .fallback = derived(section, Pair{0.5 * c.end, c.end})})
+                                        .derived = Pair{0.5 * c.end, c.end}})
           .value_or(Pair{});
   c.results.peak_from = section.get<double>("peak_from", {.unit = "s",
                                                           .doc = "peaks before it are not counted: an impulsive "

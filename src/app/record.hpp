@@ -17,7 +17,7 @@ struct KeyRecord {
   std::string name;
   std::string expected;  ///< type, range and unit in words
   std::string unit, doc;
-  std::string fallback;  ///< as TOML; empty if there is none
+  std::string fallback;  ///< as TOML, or "derived"; empty if there is none
   bool required = false;
   std::optional<std::string> value;  ///< in use, as TOML; nothing if the key is absent and has no default
 };

@@ -88,7 +88,7 @@ void Section::fail(const std::string& name, const std::string& message) const {
 template <class T>
 std::optional<T> Section::look_up(const std::string& name, const Key<T>& key, const std::string& wanted,
                                   bool required) {
-  std::optional<T> value = key.fallback;
+  std::optional<T> value = key.derived && !describing() ? key.derived : key.fallback;
   if (const toml::node* given = present(name)) {
     value.emplace();
     try {
@@ -108,8 +108,10 @@ std::optional<T> Section::look_up(const std::string& name, const Key<T>& key, co
                         .expected = wanted,
                         .unit = key.unit,
                         .doc = key.doc,
-                        .fallback = key.fallback ? write_value(*key.fallback) : "",
-                        .required = required && !key.fallback,
+                        .fallback = key.fallback  ? write_value(*key.fallback)
+                                    : key.derived ? "derived"
+                                                  : "",
+                        .required = required && !key.fallback && !key.derived,
                         .value = value ? std::optional(write_value(*value)) : std::nullopt});
   return value;
 }

@@ -34,6 +34,7 @@ struct Key {
   std::string unit{};
   std::string doc{};
   std::optional<T> fallback{};
+  std::optional<T> derived{};  ///< a fallback that follows from other values of the case
   Range range{};
 };
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Large aligned memory on huge pages, untouched until first written, so that the thread that writes a page first owns it.
+// Large aligned memory on huge pages, untouched until first written, so that the thread that writes a page first owns
+// it.
 #pragma once
 
 #include <sys/mman.h>

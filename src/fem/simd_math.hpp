@@ -20,7 +20,7 @@ inline constexpr int lanes = 2;
 #endif
 
 using Pack = double __attribute__((vector_size(lanes * sizeof(double))));
-using IntegerPack = std::int64_t __attribute__((vector_size(lanes * sizeof(double))));
+using IntegerPack = std::uint64_t __attribute__((vector_size(lanes * sizeof(double))));
 
 namespace detail {
 
@@ -28,7 +28,7 @@ template <class T>
 struct IntegerOf;
 template <>
 struct IntegerOf<double> {
-  using type = std::int64_t;
+  using type = std::uint64_t;
 };
 template <>
 struct IntegerOf<Pack> {
@@ -37,25 +37,22 @@ struct IntegerOf<Pack> {
 
 /// Adding it to a small number leaves the nearest integer in the low bits of the sum.
 inline constexpr double round_shift = 0x1.8p52;
-inline constexpr double log_2 = 0x1.62e42fefa39efp-1;
-inline constexpr double log_2_tail = 0x1.abc9e3b39803fp-56;
+/// ln 2 in two parts, the first short enough for its product with an exponent to be exact.
+inline constexpr double log_2 = 0x1.62e42feep-1;
+inline constexpr double log_2_tail = 0x1.a39ef35793c76p-33;
 
 /// Sum of c[k] x^k by pairs (Estrin): short chains of dependent operations, which is what limits a kernel.
 template <class T, int n>
 inline T polynomial(T x, const double (&c)[n]) {
-  if constexpr (n == 1) {
-    return T{} + c[0];
-  } else {
-    T sum[(n + 1) / 2];
-    for (int k = 0; k < n / 2; ++k) sum[k] = c[2 * k] + x * c[2 * k + 1];
-    if constexpr (n % 2 == 1) sum[n / 2] = T{} + c[n - 1];
-    for (int size = (n + 1) / 2; size > 1; size = (size + 1) / 2) {
-      x = x * x;
-      for (int k = 0; k < size / 2; ++k) sum[k] = sum[2 * k] + x * sum[2 * k + 1];
-      if (size % 2 == 1) sum[size / 2] = sum[size - 1];
-    }
-    return sum[0];
+  T sum[(n + 1) / 2];
+  for (int k = 0; k < n / 2; ++k) sum[k] = c[2 * k] + x * c[2 * k + 1];
+  if constexpr (n % 2 == 1) sum[n / 2] = T{} + c[n - 1];
+  for (int size = (n + 1) / 2; size > 1; size = (size + 1) / 2) {
+    x = x * x;
+    for (int k = 0; k < size / 2; ++k) sum[k] = sum[2 * k] + x * sum[2 * k + 1];
+    if (size % 2 == 1) sum[size / 2] = sum[size - 1];
   }
+  return sum[0];
 }
 
 }  // namespace detail
@@ -63,11 +60,6 @@ inline T polynomial(T x, const double (&c)[n]) {
 template <class T>
 inline T splat(double value) {
   return T{} + value;
-}
-
-template <class T>
-inline T smaller(const T& a, const T& b) {
-  return a < b ? a : b;
 }
 
 template <class T>
@@ -79,11 +71,12 @@ inline T larger(const T& a, const T& b) {
 template <class T>
 inline T log(const T& x) {
   using Integer = typename detail::IntegerOf<T>::type;
-  constexpr std::int64_t sqrt_half = 0x3fe6a09e667f3bcd;
+  constexpr std::uint64_t sqrt_half = 0x3fe6a09e667f3bcd, bias = 1024;
   const Integer bits = std::bit_cast<Integer>(x);
-  const Integer exponent = (bits - sqrt_half) >> 52;
-  const T e = std::bit_cast<T>(exponent + std::bit_cast<std::int64_t>(detail::round_shift)) - detail::round_shift;
-  const T m = std::bit_cast<T>(bits - (exponent << 52));
+  const Integer biased = (bits + ((bias << 52) - sqrt_half)) >> 52;
+  const T e =
+      std::bit_cast<T>(biased + std::bit_cast<std::uint64_t>(detail::round_shift)) - (detail::round_shift + bias);
+  const T m = std::bit_cast<T>(bits - ((biased - bias) << 52));
 
   const T s = (m - 1.0) / (m + 1.0);
   const T z = s * s;
@@ -96,7 +89,7 @@ inline T log(const T& x) {
 template <class T>
 inline T exp(const T& x) {
   using Integer = typename detail::IntegerOf<T>::type;
-  const T shifted = x * (1.0 / detail::log_2) + detail::round_shift;
+  const T shifted = x * 0x1.71547652b82fep0 + detail::round_shift;
   const T n = shifted - detail::round_shift;
   const T r = (x - n * detail::log_2) - n * detail::log_2_tail;
   const T series = detail::polynomial(r, {1.0, 1.0, 1.0 / 2, 1.0 / 6, 1.0 / 24, 1.0 / 120, 1.0 / 720, 1.0 / 5040,

@@ -15,10 +15,10 @@ namespace drogue::fluid {
 /// One sub-step of the finest level, valid only during the hook call. `time` is the end of the sub-step: u_star is the
 /// velocity there, before any immersed-boundary force; the force acts over the whole `dt`.
 struct FineStep {
-  double time, dt;              ///< [s]
-  const VelocityView& u_star;   ///< [m/s]
-  ForceField& f;                ///< [N/m^3] empty on entry, to be filled
-  double velocity_per_force;    ///< kappa [m^3 s/kg]: u = u_star + kappa f
+  double time, dt;             ///< [s]
+  const VelocityView& u_star;  ///< [m/s]
+  ForceField& f;               ///< [N/m^3] empty on entry, to be filled
+  double velocity_per_force;   ///< kappa [m^3 s/kg]: u = u_star + kappa f
 };
 
 /// What acts on the fluid once per finest sub-step: prescribed motion, a coupled structure.
@@ -30,14 +30,14 @@ class FineStepHook {
 
 /// Macroscopic fields of one block on a row-major grid [z][y][x].
 struct BlockFields {
-  std::array<std::array<float, amr::block_cells>, 3> velocity;   ///< [m/s]
-  std::array<float, amr::block_cells> pressure;                  ///< gauge [Pa]
+  std::array<std::array<float, amr::block_cells>, 3> velocity;  ///< [m/s]
+  std::array<float, amr::block_cells> pressure;                 ///< gauge [Pa]
 };
 
 struct FluidStatistics {
-  std::int64_t cell_updates = 0;   ///< since the start, all levels
-  double max_mach = 0.0;           ///< largest |u| / c_s over the last coarse step (0 for an incompressible solver)
-  double max_speed = 0.0;          ///< [m/s] over the last coarse step
+  std::int64_t cell_updates = 0;  ///< since the start, all levels
+  double max_mach = 0.0;          ///< largest |u| / c_s over the last coarse step (0 for an incompressible solver)
+  double max_speed = 0.0;         ///< [m/s] over the last coarse step
 };
 
 class FluidSolver {
@@ -48,9 +48,9 @@ class FluidSolver {
   virtual void step(FineStepHook* hook) = 0;
 
   virtual const amr::Forest& forest() const = 0;
-  virtual double time() const = 0;          ///< [s]
-  virtual double coarse_dt() const = 0;     ///< [s]
-  virtual double fine_dt() const = 0;       ///< [s] of the finest level
+  virtual double time() const = 0;       ///< [s]
+  virtual double coarse_dt() const = 0;  ///< [s]
+  virtual double fine_dt() const = 0;    ///< [s] of the finest level
   virtual const FluidStatistics& statistics() const = 0;
 
   /// Velocity of the finest level at `time()`.

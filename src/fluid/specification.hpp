@@ -15,21 +15,22 @@ enum class Boundary { velocity, outlet, free_slip, no_slip, periodic };
 /// Faces are numbered x_min, x_max, y_min, y_max, z_min, z_max.
 struct Face {
   Boundary type = Boundary::periodic;
-  std::array<Expression, 3> velocity;   ///< [m/s], functions of x, y, z, t; for `velocity` (and a moving `no_slip` wall)
-  double ramp = 0.0;                    ///< [s] time over which the velocity rises (cosine) from zero
-  double pressure = 0.0;                ///< gauge [Pa]; for `outlet`
-  double sponge = 0.0;                  ///< [m] depth of a layer that damps towards the initial velocity and the face's pressure; 0: none
+  std::array<Expression, 3> velocity;  ///< [m/s], functions of x, y, z, t; for `velocity` (and a moving `no_slip` wall)
+  double ramp = 0.0;                   ///< [s] time over which the velocity rises (cosine) from zero
+  double pressure = 0.0;               ///< gauge [Pa]; for `outlet`
+  double sponge =
+      0.0;  ///< [m] depth of a layer that damps towards the initial velocity and the face's pressure; 0: none
 };
 
 struct Specification {
-  double density;                        ///< [kg/m^3]
-  double viscosity;                      ///< kinematic [m^2/s]
-  double reference_velocity;             ///< [m/s] the velocity that `lattice_velocity` stands for
-  double lattice_velocity = 0.05;        ///< reference velocity in cells per time step, the same on every level
-  double hrr_sigma = 0.98;               ///< share of the projected stress; the rest is finite differences
+  double density;                  ///< [kg/m^3]
+  double viscosity;                ///< kinematic [m^2/s]
+  double reference_velocity;       ///< [m/s] the velocity that `lattice_velocity` stands for
+  double lattice_velocity = 0.05;  ///< reference velocity in cells per time step, the same on every level
+  double hrr_sigma = 0.98;         ///< share of the projected stress; the rest is finite differences
   std::array<Face, 6> face;
-  std::array<Expression, 3> initial_velocity;       ///< [m/s] functions of x, y, z (t = 0)
-  std::optional<Expression> initial_pressure;       ///< gauge [Pa]; zero if absent
+  std::array<Expression, 3> initial_velocity;  ///< [m/s] functions of x, y, z (t = 0)
+  std::optional<Expression> initial_pressure;  ///< gauge [Pa]; zero if absent
 };
 
 }  // namespace drogue::fluid

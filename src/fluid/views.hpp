@@ -15,7 +15,7 @@ namespace drogue::fluid {
 /// `scale * block(b)[k * stride_z + j * stride_y + a * stride_component + i]` [m/s]. Leaves only.
 struct VelocityView {
   const amr::Forest* forest;
-  const float* const* base;          ///< per block id; null where the block is not a leaf of the finest level
+  const float* const* base;  ///< per block id; null where the block is not a leaf of the finest level
   std::ptrdiff_t stride_component, stride_y, stride_z;
   float scale;
 
@@ -42,8 +42,8 @@ class ForceField {
   void clear();
 
  private:
-  std::vector<int> slot_;                            // block id -> storage
-  std::vector<int> opened_;                          // block ids, in the order of their storage
+  std::vector<int> slot_;    // block id -> storage
+  std::vector<int> opened_;  // block ids, in the order of their storage
   std::vector<std::unique_ptr<float[]>> storage_;
 };
 

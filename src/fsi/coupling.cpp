@@ -14,6 +14,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <utility>
 
 #include "core/error.hpp"
@@ -33,8 +34,7 @@ void expect_neutrally_buoyant(const fem::Structure& structure, const CouplingOpt
     if (std::abs(structure.own_mass()[node] - displaced) <= 1e-9 * displaced) continue;
     throw InputError(
         fmt::format("body '{}': the peskin scheme has no inertia of the solid, so its density must be the fluid's, "
-                    "{:g} kg/m^3, but is "
-                    "{:g}; change it, or use the added_mass scheme",
+                    "{:g} kg/m^3, but is {:g}; change it, or use the added_mass scheme",
                     options.body, options.fluid_density, structure.own_mass()[node] / structure.volume()[node]));
   }
 }
@@ -106,7 +106,10 @@ void Coupling::step_with_added_mass(fluid::FineStep& step) {
     structure_->set_mean_velocity(p, fluid_velocity_[p] - m / (m + dragged) * slip_[p]);
   }
   record_.slip_before = root_mean_square(slip_, points_.dragged_mass);
-  structure_->advance(step.dt, step.time - step.dt);
+  {
+    const Timed timed(structure_time_);
+    structure_->advance(step.dt, step.time - step.dt);
+  }
 #pragma omp parallel for schedule(static)
   for (int p = 0; p < points; ++p) {
     force_[p] = points_.dragged_mass[p] / step.dt * (structure_->mean_velocity(p) - fluid_velocity_[p]);

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "core/stopwatch.hpp"
 #include "fem/structure.hpp"
 #include "fluid/fluid_solver.hpp"
 #include "fsi/coupled_points.hpp"
@@ -45,6 +46,8 @@ class Coupling : public fluid::FineStepHook {
   const CouplingRecord& last() const { return record_; }
   /// Mean over the time since the last call of the force on the body [N]; resets the mean.
   Vec3 take_mean_force();
+  /// Wall time spent in the structure so far [s].
+  double structure_seconds() const { return structure_time_.seconds(); }
   /// Of fluid velocity minus point velocity after forcing, area-weighted over the points: mean along the reference
   /// normal (of a thin solid), and rms of the vector [m/s]. Taken where the last force was spread.
   std::array<double, 2> slip(const fluid::VelocityView& u) const;
@@ -62,6 +65,7 @@ class Coupling : public fluid::FineStepHook {
   ib::Markers markers_;  // one per point
   std::vector<Vec3> position_, fluid_velocity_, slip_, force_;
   CouplingRecord record_;
+  Stopwatch structure_time_;
   Vec3 impulse_ = Vec3::Zero();  // on the body since the mean was taken [N s]
   double elapsed_ = 0.0;         // since then [s]
 };

@@ -20,12 +20,12 @@ constexpr bool in_lattice(int cx, int cy, int cz) { return cx * cx + cy * cy + c
 /// What all populations of a cell share: the coefficients of the series, computed once.
 template <class T>
 struct HermiteSeries {
-  T base;                       // drho - 3/2 tr A
-  std::array<T, 3> normal;      // 9/2 A_aa
-  std::array<T, 3> shear;       // 9 A_ab for (y, z), (x, z), (x, y): named by the axis left out
-  std::array<T, 3> axis;        // odd part of the population along an axis
-  std::array<T, 3> odd_next;    // odd part along a in the diagonals of the plane (a, a + 1)
-  std::array<T, 3> odd_prev;    // odd part along a in the diagonals of the plane (a, a - 1)
+  T base;                     // drho - 3/2 tr A
+  std::array<T, 3> normal;    // 9/2 A_aa
+  std::array<T, 3> shear;     // 9 A_ab for (y, z), (x, z), (x, y): named by the axis left out
+  std::array<T, 3> axis;      // odd part of the population along an axis
+  std::array<T, 3> odd_next;  // odd part along a in the diagonals of the plane (a, a + 1)
+  std::array<T, 3> odd_prev;  // odd part along a in the diagonals of the plane (a, a - 1)
 
   /// `keep` = 1 - 1/tau, the share of Pneq that survives the collision.
   HermiteSeries(const std::array<T, moments>& m, float keep) {
@@ -82,7 +82,7 @@ struct HermiteSeries {
 template <class T, class Populations>
 std::array<T, moments> moments_of(const Populations& f) {
   struct Plane {
-    T even, cross, along_first, along_second;   // sums over the four diagonals of one plane
+    T even, cross, along_first, along_second;  // sums over the four diagonals of one plane
   };
   const auto diagonals = [](T pp, T mm, T pm, T mp) {
     return Plane{(pp + mm) + (pm + mp), (pp + mm) - (pm + mp), (pp - mm) + (pm - mp), (pp - mm) - (pm - mp)};

@@ -8,7 +8,7 @@ namespace drogue::lbm {
 namespace {
 
 constexpr int n = amr::block_size;
-constexpr int depth = 2;   // layers of a parent that are filled
+constexpr int depth = 2;  // layers of a parent that are filled
 
 struct CellBox {
   Index3 begin, end;
@@ -51,7 +51,7 @@ std::vector<CellBox> without_repeats(const std::vector<CellBox>& boxes) {
   return kept;
 }
 
-using Sides = std::array<std::array<bool, 2>, 3>;   // [axis][low, high]
+using Sides = std::array<std::array<bool, 2>, 3>;  // [axis][low, high]
 
 amr::Kind kind_at(const amr::Forest& forest, int id, const Index3& offset) {
   const int neighbour = forest.block(id).neighbour[amr::neighbour_slot(offset[0], offset[1], offset[2])];
@@ -60,9 +60,9 @@ amr::Kind kind_at(const amr::Forest& forest, int id, const Index3& offset) {
 
 bool holds_field(amr::Kind kind) { return kind == amr::Kind::leaf || kind == amr::Kind::parent; }
 
-/// Of the sides that a tensor-product stencil of block `id` would use, those it may: every neighbour that a combination of
-/// them reaches holds a field of its own. At a concave corner one axis gives way, one whose face is no parent if there is
-/// one, so that the stencil keeps straddling the interface.
+/// Of the sides that a tensor-product stencil of block `id` would use, those it may: every neighbour that a combination
+/// of them reaches holds a field of its own. At a concave corner one axis gives way, one whose face is no parent if
+/// there is one, so that the stencil keeps straddling the interface.
 Sides available_sides(const amr::Forest& forest, int id, Sides sides) {
   const auto reaches = [&](const Index3& o) {
     for (int a = 0; a < 3; ++a)

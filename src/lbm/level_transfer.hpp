@@ -14,12 +14,12 @@ struct TransferPlan {
   std::vector<int> first;
 };
 
-/// Rims of the ghosts of `level` that touch a leaf across a face or an edge, from their hosts on `level` - 1. (No population
-/// crosses a corner.)
+/// Rims of the ghosts of `level` that touch a leaf across a face or an edge, from their hosts on `level` - 1. (No
+/// population crosses a corner.)
 TransferPlan plan_interpolation(const amr::Forest& forest, int level);
 
-/// The two layers of the parents of `level` that lie against leaves, from their children on `level` + 1: one is streamed from,
-/// both are in reach of the cubic interpolation.
+/// The two layers of the parents of `level` that lie against leaves, from their children on `level` + 1: one is
+/// streamed from, both are in reach of the cubic interpolation.
 TransferPlan plan_restriction(const amr::Forest& forest, int level);
 
 }  // namespace drogue::lbm

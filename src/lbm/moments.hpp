@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The state of the fluid: ten numbers a cell, (drho, u_x, u_y, u_z) in float32 and the non-equilibrium stress
 // Pneq = sum f c c - rho c_s^2 I - rho u u (xx, yy, zz, xy, xz, yz) in the storage type S, all in lattice units.
-// Array [block][z][y][moment][x]: the ten moments of a row of 16 cells are adjacent (448 bytes with 16-bit stresses). Rounding
-// Pneq touches neither mass nor momentum, which is why it may be kept in 16 bits.
+// Array [block][z][y][moment][x]: the ten moments of a row of 16 cells are adjacent (448 bytes with 16-bit stresses).
+// Rounding Pneq touches neither mass nor momentum, which is why it may be kept in 16 bits.
 #pragma once
 
 #include <array>
@@ -103,9 +103,7 @@ struct RowLayout {
     else
       S::store(stress(row, m), v);
   }
-  static float get(const std::byte* row, int m, int x) {
-    return m < 4 ? macro(row, m)[x] : S::get(stress(row, m)[x]);
-  }
+  static float get(const std::byte* row, int m, int x) { return m < 4 ? macro(row, m)[x] : S::get(stress(row, m)[x]); }
   static void put(std::byte* row, int m, int x, float value) {
     if (m < 4)
       macro(row, m)[x] = value;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Cells are handled in lines of up to 16 or 32: along x where the box is wide in x, else along y (a box at an x face is one or
-// two cells wide there). Lines are combined with whole vectors along the two other axes, and along themselves last, by permuting
-// lanes.
+// Cells are handled in lines of up to 16 or 32: along x where the box is wide in x, else along y (a box at an x face is
+// one or two cells wide there). Lines are combined with whole vectors along the two other axes, and along themselves
+// last, by permuting lanes.
 #include "lbm/resample.hpp"
 
 #include <algorithm>
@@ -10,7 +10,7 @@ namespace drogue::lbm {
 namespace {
 
 constexpr int n = amr::block_size;
-constexpr int reach = 2;               // cells outside the source block that a stencil may use
+constexpr int reach = 2;  // cells outside the source block that a stencil may use
 constexpr int widest = n + 2 * reach;
 
 /// Lagrange weights of the points 0, 1, 2, 3 at position x.
@@ -121,7 +121,7 @@ class LineReader {
     return a;
   }
 
-  int first_, count_;   // cells along the lines
+  int first_, count_;  // cells along the lines
   int y0_, z0_;
   bool midway_;
   Rows start_, end_;
@@ -224,7 +224,7 @@ void run(const ResampleJob& job, const amr::Forest& forest, const SourceFields<S
     for (int r = 0; r < rows; ++r)
       for (int c = 0; c < columns; ++c)
         in[r][c] = x_lines ? reader.along_x(m, p0 + c, z0 + r) : reader.along_y(m, p0 + c, z0 + r);
-    if (z.outputs() < p.outputs()) {   // the axis that leaves less to do first
+    if (z.outputs() < p.outputs()) {  // the axis that leaves less to do first
       combine_z<V>(z, columns, in, half);
       combine_p<V>(p, z.outputs(), half, out);
     } else {

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Tensor-product resampling of a box of one block onto a box of another, the one mechanism that joins levels:
 // cubic interpolation of a coarse leaf onto the rim of a ghost, fourth-order restriction of fine leaves onto a parent.
-// Populations move at lattice speed, so a second-order mismatch of the velocity at an interface would reach the flow as a
-// first-order force (DESIGN section 3, table); hence the orders.
+// Populations move at lattice speed, so a second-order mismatch of the velocity at an interface would reach the flow as
+// a first-order force (DESIGN section 3, table); hence the orders.
 #pragma once
 
 #include <array>
@@ -12,8 +12,8 @@
 
 namespace drogue::lbm {
 
-/// One axis: output i in [begin, end) is the sum over k < taps of weight[i][k] * input[start[i] + k]. Inputs may lie up to two
-/// cells outside the source block.
+/// One axis: output i in [begin, end) is the sum over k < taps of weight[i][k] * input[start[i] + k]. Inputs may lie up
+/// to two cells outside the source block.
 struct Axis {
   static constexpr int most_taps = 5;
   int begin, end, taps;
@@ -26,23 +26,24 @@ struct Axis {
   int inputs() const { return last_input() + 1 - first_input(); }
 };
 
-/// Cubic interpolation onto cells [begin, end) of the ghost in octant `half` (0 low, 1 high) of a coarse block; stencils keep
-/// out of the neighbour on a side that is not `available` {low, high}.
+/// Cubic interpolation onto cells [begin, end) of the ghost in octant `half` (0 low, 1 high) of a coarse block;
+/// stencils keep out of the neighbour on a side that is not `available` {low, high}.
 Axis cubic_axis(int begin, int end, int half, std::array<bool, 2> available);
 
-/// Fourth-order restriction of a fine block onto coarse cells [begin, end) of the eight it covers: (-1, 9, 9, -1) / 16, and
-/// (6, 11, 1, -3, 1) / 16 where the neighbour is not `available`; both reproduce cubics and remove the shortest wave.
+/// Fourth-order restriction of a fine block onto coarse cells [begin, end) of the eight it covers: (-1, 9, 9, -1) / 16,
+/// and (6, 11, 1, -3, 1) / 16 where the neighbour is not `available`; both reproduce cubics and remove the shortest
+/// wave.
 Axis restriction_axis(int begin, int end, std::array<bool, 2> available);
 
 /// A box of `target` computed from `source` and its neighbours on its level.
 struct ResampleJob {
   int source, target;
   std::array<Axis, 3> axis;
-  std::array<int, 3> shift;   ///< added to an output index to give the cell of the target
+  std::array<int, 3> shift;  ///< added to an output index to give the cell of the target
 };
 
-/// Where a source finds its values: leaves in `leaves`, or half-way between `leaves` and `leaves_end` if that is given; parents,
-/// which are restricted anew for each transfer, in `parents`.
+/// Where a source finds its values: leaves in `leaves`, or half-way between `leaves` and `leaves_end` if that is given;
+/// parents, which are restricted anew for each transfer, in `parents`.
 template <class S>
 struct SourceFields {
   const MomentField<S>& leaves;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// One row of a block in one vector: 16 floats, an AVX-512 register. Elsewhere the compiler splits it into what there is.
+// One row of a block in one vector: 16 floats, an AVX-512 register. Elsewhere the compiler splits it into what there
+// is.
 #pragma once
 
 #include <cstdint>
@@ -15,8 +16,8 @@ inline constexpr int lanes = 16;
 using Vec = float __attribute__((vector_size(64)));
 using Ivec = std::int32_t __attribute__((vector_size(64)));
 
-// The zero-masking forms of the intrinsics with a full mask compile to the plain instruction; the plain forms raise false
-// warnings of uninitialised use (GCC bug 105593).
+// The zero-masking forms of the intrinsics with a full mask compile to the plain instruction; the plain forms raise
+// false warnings of uninitialised use (GCC bug 105593).
 #ifdef __AVX512F__
 inline constexpr __mmask16 all = 0xffff;
 #endif
@@ -37,7 +38,8 @@ inline Vec broadcast(float s) { return Vec{} + s; }
 inline Vec shift_up(Vec v, float first) {
 #ifdef __AVX512F__
   const __m512i carried = _mm512_castps_si512(_mm512_set1_ps(first));
-  return reinterpret_cast<Vec>(_mm512_maskz_alignr_epi32(all, _mm512_castps_si512(reinterpret_cast<__m512>(v)), carried, 15));
+  return reinterpret_cast<Vec>(
+      _mm512_maskz_alignr_epi32(all, _mm512_castps_si512(reinterpret_cast<__m512>(v)), carried, 15));
 #else
   alignas(64) float row[lanes + 1];
   row[0] = first;
@@ -50,7 +52,8 @@ inline Vec shift_up(Vec v, float first) {
 inline Vec shift_down(Vec v, float last) {
 #ifdef __AVX512F__
   const __m512i carried = _mm512_castps_si512(_mm512_set1_ps(last));
-  return reinterpret_cast<Vec>(_mm512_maskz_alignr_epi32(all, carried, _mm512_castps_si512(reinterpret_cast<__m512>(v)), 1));
+  return reinterpret_cast<Vec>(
+      _mm512_maskz_alignr_epi32(all, carried, _mm512_castps_si512(reinterpret_cast<__m512>(v)), 1));
 #else
   alignas(64) float row[lanes + 1];
   store(row, v);

@@ -11,7 +11,7 @@ namespace drogue::lbm {
 namespace {
 
 constexpr int n = amr::block_size;
-constexpr double sound_speed_squared = 1.0 / 3.0;   // cells^2 per step^2
+constexpr double sound_speed_squared = 1.0 / 3.0;  // cells^2 per step^2
 
 Units units_of(const fluid::Specification& s) {
   const double velocity = s.reference_velocity / s.lattice_velocity;
@@ -103,8 +103,8 @@ void BasicSolver<S>::stream_and_collide(int level) {
   statistics_.max_mach = std::max(statistics_.max_mach, speed / std::sqrt(sound_speed_squared));
 }
 
-/// At the start of the coarse step (`midway` false) everything is taken at its time; half-way through, coarse leaves are
-/// averaged over the step while parents have just been restricted from the fine leaves.
+/// At the start of the coarse step (`midway` false) everything is taken at its time; half-way through, coarse leaves
+/// are averaged over the step while parents have just been restricted from the fine leaves.
 template <class S>
 void BasicSolver<S>::interpolate_rims(int level, bool midway) {
   const Level &fine = levels_[level], &coarse = levels_[level - 1];

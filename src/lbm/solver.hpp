@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Lattice-Boltzmann fluid on a block forest: weakly compressible Navier-Stokes, acoustic scaling (the time step halves with the
-// cell), levels sub-cycled. One coarse step of level l is
+// Lattice-Boltzmann fluid on a block forest: weakly compressible Navier-Stokes, acoustic scaling (the time step halves
+// with the cell), levels sub-cycled. One coarse step of level l is
 //   fill what lies beyond the domain; stream and collide the leaves, from the field at t to the field at t + dt;
 //   twice: interpolate the rims of level l + 1 in space and time, advance it, restrict it onto the parents of l.
 // On the finest level the hook sees the velocity after each step and returns a force, u += kappa f.
@@ -42,12 +42,12 @@ class BasicSolver : public fluid::FluidSolver {
 
  private:
   struct Level {
-    double dt;                          // [s]
-    double time = 0.0;                  // [s] of the field `now`
-    int now = 0;                        // which of the two fields holds the level's present
+    double dt;          // [s]
+    double time = 0.0;  // [s] of the field `now`
+    int now = 0;        // which of the two fields holds the level's present
     Relaxation relaxation;
     TransferPlan from_coarser, to_parents;
-    std::vector<float> sponge;          // damping per step and cell, [block in sponge_blocks][cell]
+    std::vector<float> sponge;  // damping per step and cell, [block in sponge_blocks][cell]
     std::vector<int> sponge_blocks;
   };
 
@@ -71,7 +71,7 @@ class BasicSolver : public fluid::FluidSolver {
   std::array<MomentField<S>, 2> field_;
   BoundaryFill<S> fill_boundary_;
   fluid::ForceField force_;
-  std::array<std::vector<const float*>, 2> velocity_base_;   // per field and block, for the views
+  std::array<std::vector<const float*>, 2> velocity_base_;  // per field and block, for the views
   double time_ = 0.0;
   fluid::FluidStatistics statistics_;
 };

@@ -15,7 +15,7 @@ std::array<float, moments> initial_moments(const fluid::Specification& s, const 
                                            const Units& units) {
   std::array<float, moments> m{};
   if (s.initial_pressure) m[drho] = static_cast<float>((*s.initial_pressure)(x, 0.0) / units.pressure);
-  Mat3 gradient = Mat3::Zero();   // [component][along], lattice units
+  Mat3 gradient = Mat3::Zero();  // [component][along], lattice units
   for (int a = 0; a < 3; ++a) {
     const Expression& u = s.initial_velocity[a];
     m[ux + a] = static_cast<float>(u(x, 0.0) / units.velocity);
@@ -35,12 +35,13 @@ std::array<float, moments> initial_moments(const fluid::Specification& s, const 
 template <class S>
 void BasicSolver<S>::initialise() {
   for (int level = 0; level < forest_.levels(); ++level) {
-    // the kinds one after the other, with the schedule of the steps, so that each thread first touches what it will update
+    // the kinds one after the other, with the schedule of the steps, so that each thread first touches what it will
+    // update
     for (const auto kind : {amr::Kind::leaf, amr::Kind::parent, amr::Kind::ghost, amr::Kind::boundary}) {
       const auto range = forest_.range(level, kind);
 #pragma omp parallel
       {
-        const fluid::Specification mine = specification_;   // formulas are evaluated on copies
+        const fluid::Specification mine = specification_;  // formulas are evaluated on copies
 #pragma omp for schedule(static)
         for (int id = range.begin; id < range.end; ++id) initialise_block(id, mine);
       }
@@ -101,8 +102,7 @@ void BasicSolver<S>::apply_sponge(int level) {
   const int count = static_cast<int>(l.sponge_blocks.size());
   if (count == 0) return;
   std::array<float, 6> rest_density;
-  for (int f = 0; f < 6; ++f)
-    rest_density[f] = static_cast<float>(specification_.face[f].pressure / units_.pressure);
+  for (int f = 0; f < 6; ++f) rest_density[f] = static_cast<float>(specification_.face[f].pressure / units_.pressure);
   const float target = *std::max_element(rest_density.begin(), rest_density.end(),
                                          [](float a, float b) { return std::abs(a) < std::abs(b); });
 #pragma omp parallel

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Block kernel: reconstruct post-collision populations of a source row in registers, stream them into rolling scratch that
-// fits the first-level cache, and take the moments of a target row as soon as it is complete (one plane and one row behind).
-// Source rows run from -1 to 16 in y and z; of a row outside the block only what enters it is built: five populations
-// cross a face, one an edge, none a corner. What enters through the two x faces is built for whole columns along y.
+// Block kernel: reconstruct post-collision populations of a source row in registers, stream them into rolling scratch
+// that fits the first-level cache, and take the moments of a target row as soon as it is complete (one plane and one
+// row behind). Source rows run from -1 to 16 in y and z; of a row outside the block only what enters it is built: five
+// populations cross a face, one an edge, none a corner. What enters through the two x faces is built for whole columns
+// along y.
 #include "lbm/stream_collide.hpp"
 
 #include <algorithm>
@@ -16,15 +17,15 @@ constexpr int n = amr::block_size;
 
 /// Streamed populations of target rows, already shifted in x. Index of a population: (cy + 1) * 3 + (cx + 1).
 struct alignas(64) Scratch {
-  float level[2][n][9][lanes];   // c_z = 0, by parity of the target plane
-  float up[3][n][9][lanes];      // c_z = +1, by target plane modulo 3 (five of nine used)
-  float down[4][9][lanes];       // c_z = -1, by target row modulo 4
+  float level[2][n][9][lanes];  // c_z = 0, by parity of the target plane
+  float up[3][n][9][lanes];     // c_z = +1, by target plane modulo 3 (five of nine used)
+  float down[4][9][lanes];      // c_z = -1, by target row modulo 4
 };
 
 /// What enters through the two x faces from the source plane at hand, and the velocity beyond them.
 struct alignas(64) XHalo {
-  float entering[2][3][3][32];        // [side][cy + 1][cz + 1][y + 1]
-  float velocity[2][2][3][lanes];     // [parity of plane][side][component][y]
+  float entering[2][3][3][32];     // [side][cy + 1][cz + 1][y + 1]
+  float velocity[2][2][3][lanes];  // [parity of plane][side][component][y]
 };
 
 template <class S>
@@ -63,8 +64,8 @@ class Kernel {
     for (int side = 0; side < 2; ++side)
       for (int above = 0; above < 2; ++above) {
         const int slot = amr::neighbour_slot(side ? 1 : -1, above ? 1 : -1, 0);
-        const HermiteSeries<Vec> g(
-            Layout::load_column(blocks_.source[slot], side ? 0 : n - 1, above ? 0 : n - 1, n).m, keep_);
+        const HermiteSeries<Vec> g(Layout::load_column(blocks_.source[slot], side ? 0 : n - 1, above ? 0 : n - 1, n).m,
+                                   keep_);
         const Vec v = side ? (above ? g.population<-1, -1, 0>() : g.population<-1, 1, 0>())
                            : (above ? g.population<1, -1, 0>() : g.population<1, 1, 0>());
         store(edge_[side][above], v);
@@ -101,8 +102,8 @@ class Kernel {
     }
   }
 
-  /// Row (y, z) of the next block, and in turn one of the rows around it: software has to do it, the hardware's prefetcher sees
-  /// no stream in these rows. Forced inline, or GCC 12 drops calls to a function without effects.
+  /// Row (y, z) of the next block, and in turn one of the rows around it: software has to do it, the hardware's
+  /// prefetcher sees no stream in these rows. Forced inline, or GCC 12 drops calls to a function without effects.
   [[gnu::always_inline]] inline void prefetch_next(int y, int z) const {
     if (!blocks_.next) return;
     const auto& source = blocks_.next->source;
@@ -207,7 +208,7 @@ class Kernel {
   void blend_strain(Row& r, int y, int z) {
     const std::byte *here = row(y, z), *south = row(y - 1, z), *north = row(y + 1, z);
     const std::byte *below = row(y, z - 1), *above = row(y, z + 1);
-    std::array<std::array<Vec, 3>, 3> d;   // twice the derivative [along][component]
+    std::array<std::array<Vec, 3>, 3> d;  // twice the derivative [along][component]
     for (int a = 0; a < 3; ++a) {
       const Vec u = load(Layout::macro(here, ux + a));
       const auto& beyond = halo_.velocity[z & 1];
@@ -251,7 +252,7 @@ class Kernel {
   const float keep_, sigma_, strain_factor_;
   Vec max_speed_{};
   Ivec in_bounds_ = Ivec{} - 1;
-  alignas(64) float edge_[2][2][lanes];   // [x side][y side][z]
+  alignas(64) float edge_[2][2][lanes];  // [x side][y side][z]
   XHalo halo_;
   Scratch scratch_;
 };

@@ -30,7 +30,7 @@ void read_frames_csv(const std::filesystem::path& csv, RunFolder& run) {
       throw InputError(fmt::format("{}:{}: expected kind,index,time,file, found \"{}\"", csv.string(), number, line));
     const Frame frame{std::stod(time), run.folder / file};
     if (!std::filesystem::exists(frame.file)) continue;
-    if (kind == "canopy") run.canopy.push_back(frame);
+    if (kind.starts_with("canopy")) run.canopy.push_back(frame);
     if (kind == "fluid") run.fluid.push_back(frame);
   }
 }

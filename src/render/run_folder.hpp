@@ -19,8 +19,9 @@ struct RunFolder {
   double last_time() const;  ///< [s] of the latest frame of either kind
 };
 
-/// Reads frames.csv (kind,index,time[s],file); without it finds canopy_*.vtu and fluid_*.vtkhdf (or .hdf) by name and
-/// asks the files for their times. Throws InputError if the folder is missing or holds no snapshots.
+/// Reads frames.csv (kind,index,time[s],file; kind fluid, canopy or canopy_NAME); without it finds canopy_*.vtu and
+/// fluid_*.vtkhdf (or .hdf) by name and asks the files for their times. Throws InputError if the folder is missing or
+/// holds no snapshots.
 RunFolder open_run(const std::filesystem::path& folder);
 
 /// The frames of the instant nearest to `time`; empty if there are none.

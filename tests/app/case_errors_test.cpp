@@ -189,7 +189,8 @@ TEST(CaseErrors, keys_without_effect_are_refused) {
       {"stiffness = 1e6", "stiffness = 1e6\nrigid = true", "case.toml:34: body.plate.hold.0.stiffness has no effect"},
       {"[[grid.region]]\n", "[[grid.region]]\nbody = \"plate\"\n",
        "case.toml:23: grid.region.0.body has no effect here"},
-      {"end = 2", "end = 2\n[fluid.initial]", "case.toml:38: fluid.initial = {...} is a table; expected \"uniform\" or"},
+      {"end = 2", "end = 2\n[fluid.initial]",
+       "case.toml:38: fluid.initial = {...} is a table; expected \"uniform\" or"},
   });
 }
 

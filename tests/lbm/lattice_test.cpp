@@ -41,7 +41,7 @@ TEST(Lattice, reconstruction_followed_by_moments_is_the_identity_when_nothing_re
 
 TEST(Lattice, collision_keeps_mass_and_momentum_and_scales_the_stress) {
   std::mt19937 generator(2);
-  const float keep = -0.9f;   // tau just above one half
+  const float keep = -0.9f;  // tau just above one half
   for (int trial = 0; trial < 100; ++trial) {
     const Moments m = random_moments(generator);
     const Moments after = moments_of<float>(Cell{HermiteSeries<float>(m, keep)});

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The transfer between levels reproduces cubic fields, wherever the interface has faces, edges, concave and convex corners.
+// The transfer between levels reproduces cubic fields, wherever the interface has faces, edges, concave and convex
+// corners.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -12,7 +13,8 @@ namespace {
 constexpr int n = amr::block_size;
 
 double cubic(const Vec3& x) {
-  return 0.3 + x[0] - 2.0 * x[1] + x[0] * x[1] * x[2] + x[0] * x[0] * x[0] - x[1] * x[1] * x[2] + 0.5 * x[2] * x[2] * x[2];
+  return 0.3 + x[0] - 2.0 * x[1] + x[0] * x[1] * x[2] + x[0] * x[0] * x[0] - x[1] * x[1] * x[2] +
+         0.5 * x[2] * x[2] * x[2];
 }
 
 /// Coarse box of 3 x 3 x 3 blocks with an L-shaped refined region: concave and convex edges and corners.
@@ -78,7 +80,8 @@ TEST(LevelTransfer, every_rim_a_leaf_streams_from_is_filled) {
       const auto range = forest.range(level, kind);
       for (int id = range.begin; id < range.end; ++id)
         for (int r = 0; r < rows_per_block; ++r)
-          for (int x = 0; x < n; ++x) RowLayout<FloatStress>::put(field.block(id) + r * RowLayout<FloatStress>::bytes, drho, x, 1e6f);
+          for (int x = 0; x < n; ++x)
+            RowLayout<FloatStress>::put(field.block(id) + r * RowLayout<FloatStress>::bytes, drho, x, 1e6f);
     }
   const SourceFields<FloatStress> now{field, nullptr, field};
   for (const ResampleJob& job : plan_restriction(forest, 0).job) resample(job, forest, now, 1.0f, field);
@@ -88,7 +91,7 @@ TEST(LevelTransfer, every_rim_a_leaf_streams_from_is_filled) {
     for (int id = leaves.begin; id < leaves.end; ++id)
       for (int slot = 0; slot < 27; ++slot) {
         const Index3 o = amr::slot_offset(slot);
-        if (std::abs(o[0]) + std::abs(o[1]) + std::abs(o[2]) > 2) continue;   // no population crosses a corner
+        if (std::abs(o[0]) + std::abs(o[1]) + std::abs(o[2]) > 2) continue;  // no population crosses a corner
         const int neighbour = forest.block(id).neighbour[slot];
         if (forest.block(neighbour).kind == amr::Kind::boundary) continue;
         for (int c = 0; c < amr::block_cells; ++c) {

@@ -24,7 +24,8 @@ fluid::Specification specification(double viscosity, double lattice_velocity) {
   return s;
 }
 
-/// A periodic box of `across` coarse cells along x and y, one block deep, edge 1 m; the quarter x, y < 1/2 refined `extra` times.
+/// A periodic box of `across` coarse cells along x and y, one block deep, edge 1 m; the quarter x, y < 1/2 refined
+/// `extra` times.
 amr::Forest periodic_box(int across, int extra) {
   const double dx = 1.0 / across;
   const amr::Domain domain{{Vec3::Zero(), Vec3(1.0, 1.0, n * dx)}, dx, {true, true, true}};
@@ -33,7 +34,7 @@ amr::Forest periodic_box(int across, int extra) {
 }
 
 double taylor_green_error(int across, int extra) {
-  auto s = specification(1.0 / 50.0, 0.64 / across);   // diffusive scaling: compressibility falls with the error
+  auto s = specification(1.0 / 50.0, 0.64 / across);  // diffusive scaling: compressibility falls with the error
   s.initial_velocity = {Expression("sin(2*pi*x)*cos(2*pi*y)"), Expression("-cos(2*pi*x)*sin(2*pi*y)"), Expression(0.0)};
   s.initial_pressure = Expression("0.25*(cos(4*pi*x)+cos(4*pi*y))");
   Solver solver(periodic_box(across, extra), s);
@@ -227,7 +228,8 @@ TEST(Solver, divergence_names_time_level_cell_and_position) {
     FAIL() << "did not diverge";
   } catch (const Diverged& e) {
     const std::string message = e.what();
-    for (const char* part : {"time", "level", "cell", "position"}) EXPECT_NE(message.find(part), std::string::npos) << message;
+    for (const char* part : {"time", "level", "cell", "position"})
+      EXPECT_NE(message.find(part), std::string::npos) << message;
   }
 }
 

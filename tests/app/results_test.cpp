@@ -1,0 +1,137 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "app/results.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "app/schedule.hpp"
+#include "app/summary.hpp"
+
+namespace drogue::app {
+namespace {
+
+/// Rows at the end of each of `n` equal steps to `end`; values of a formula at the middle of each step.
+template <class F>
+Trace trace_of(int n, double end, F c_d) {
+  Trace trace;
+  for (int i = 1; i <= n; ++i) {
+    const double dt = end / n;
+    trace.time.push_back(i * dt);
+    trace.c_d.push_back(c_d((i - 0.5) * dt));
+    trace.centre_dx.push_back(0.1 * trace.c_d.back());
+    trace.slip_normal.push_back(0.0);
+    trace.face_difference.push_back(i == n / 2 ? 3.0 : 1.0);
+  }
+  return trace;
+}
+
+std::optional<double> value_of(const std::vector<Result>& results, const std::string& name) {
+  return std::ranges::find(results, name, &Result::name)->value;
+}
+
+TEST(Results, mean_of_a_constant_is_the_constant) {
+  const Trace trace = trace_of(37, 8.0, [](double) { return 1.18; });
+  EXPECT_NEAR(*window_mean(trace.time, trace.c_d, {4.0, 8.0}), 1.18, 1e-14);
+  EXPECT_NEAR(*window_drift(trace.time, trace.c_d, {4.0, 8.0}), 0.0, 1e-14);
+}
+
+TEST(Results, mean_of_a_line_is_its_middle_even_where_rows_straddle_the_window) {
+  // Step means of a line are its values at the middle of the steps, so only straddling rows can err: they count with
+  // the part of their time inside the window, and are at most one step of 0.1 s away from it.
+  const Trace exact = trace_of(80, 8.0, [](double t) { return t; });
+  EXPECT_NEAR(*window_mean(exact.time, exact.c_d, {4.0, 8.0}), 6.0, 1e-12);
+  EXPECT_NEAR(*window_mean(exact.time, exact.c_d, {4.03, 7.97}), 6.0, 0.1 * 0.1 / 3.9);
+}
+
+TEST(Results, drift_is_the_difference_of_the_halves_over_the_mean) {
+  const Trace trace = trace_of(80, 8.0, [](double t) { return 1.0 + 0.01 * (t - 6.0); });
+  EXPECT_NEAR(*window_drift(trace.time, trace.c_d, {4.0, 8.0}), 0.02, 1e-12);
+}
+
+TEST(Results, uneven_rows_count_with_their_time) {
+  const std::vector<double> time{1.0, 3.0, 4.0}, value{5.0, 1.0, 2.0};
+  EXPECT_DOUBLE_EQ(*window_mean(time, value, {0.0, 4.0}), (5.0 + 2.0 * 1.0 + 2.0) / 4.0);
+  EXPECT_DOUBLE_EQ(*window_mean(time, value, {2.0, 4.0}), 1.5);
+}
+
+TEST(Results, a_window_that_was_not_reached_has_no_mean) {
+  const Trace trace = trace_of(10, 5.0, [](double) { return 1.0; });
+  EXPECT_FALSE(window_mean(trace.time, trace.c_d, {4.0, 8.0}));
+  EXPECT_FALSE(window_drift(trace.time, trace.c_d, {4.0, 8.0}));
+  EXPECT_FALSE(window_mean({}, {}, {4.0, 8.0}));
+}
+
+TEST(Results, peaks_before_their_time_do_not_count) {
+  const Trace trace = trace_of(80, 8.0, [](double t) { return t < 0.1 ? 100.0 : 4.0 - (t - 0.65) * (t - 0.65); });
+  ResultOptions options;
+  options.stable_window = {4.0, 8.0};
+  EXPECT_EQ(value_of(summarise(trace, options), "cd_peak"), 100.0);
+  options.peak_from = 0.15;
+  const auto results = summarise(trace, options);
+  EXPECT_DOUBLE_EQ(*value_of(results, "cd_peak"), 4.0);
+  EXPECT_DOUBLE_EQ(*value_of(results, "cd_peak_time"), 0.7) << "the end of the row";
+  EXPECT_DOUBLE_EQ(*value_of(results, "centre_dx_peak"), 0.4);
+  EXPECT_EQ(value_of(results, "face_difference_max"), 3.0);
+}
+
+TEST(Results, references_agree_within_their_relative_bound) {
+  const std::vector<Result> results{{"cd_stable", "", 1.29}, {"cd_peak", "", std::nullopt}};
+  const std::vector<Reference> references{
+      {"cd_stable", 1.18, 0.10, "a"}, {"cd_stable", 1.18, 0.09, "b"}, {"cd_peak", 4.2, 0.1, "c"}};
+  const auto comparisons = compare(results, references);
+  EXPECT_NEAR(comparisons[0].difference, 0.11 / 1.18, 1e-12);
+  EXPECT_TRUE(comparisons[0].agrees);
+  EXPECT_FALSE(comparisons[1].agrees);
+  EXPECT_FALSE(comparisons[2].value);
+  EXPECT_FALSE(comparisons[2].agrees);
+}
+
+TEST(Summary, holds_what_tools_read) {
+  Summary summary;
+  summary.case_name = "plate";
+  summary.fluid = "lbm";
+  summary.ending = Ending::diverged;
+  summary.message = "too fast";
+  summary.cells_per_level = {10, 20};
+  summary.time_share = {{"fluid", 0.75}, {"other", 0.25}};
+  summary.results = {{"cd_stable", "", 1.2}, {"cd_peak", "", std::nullopt}};
+  summary.references = compare(summary.results, {{"cd_stable", 1.18, 0.10, "a paper"}});
+  const auto json = nlohmann::json::parse(to_json(summary));
+  for (const char* key : {"case", "fluid", "version", "threads", "t_end", "wall_seconds", "cell_updates", "mlups",
+                          "peak_rss_bytes", "cells_per_level", "time_share", "results", "references"}) {
+    EXPECT_TRUE(json.contains(key)) << key;
+  }
+  EXPECT_EQ(json["diverged"], true);
+  EXPECT_EQ(json["finished"], false);
+  EXPECT_EQ(json["message"], "too fast");
+  EXPECT_EQ(json["time_share"]["fluid"], 0.75);
+  EXPECT_EQ(json["results"]["cd_stable"], 1.2);
+  EXPECT_TRUE(json["results"]["cd_peak"].is_null());
+  EXPECT_EQ(json["references"]["cd_stable"]["reference"], 1.18);
+  EXPECT_EQ(json["references"]["cd_stable"]["agrees"], true);
+  EXPECT_EQ(json["references"]["cd_stable"]["source"], "a paper");
+}
+
+TEST(Schedule, is_due_once_per_interval_whatever_the_step) {
+  for (double dt : {0.0125, 0.01, 0.003}) {
+    Schedule schedule(0.05);
+    int count = 0;
+    double time = 0.0;
+    for (int step = 0; time <= 1.0 - 0.5 * dt; ++step, time += dt) count += schedule.due(time, dt) ? 1 : 0;
+    EXPECT_EQ(count, 20) << "steps of " << dt;
+  }
+}
+
+TEST(Schedule, zero_means_never_or_always) {
+  Schedule never(0.0), always(0.0, Schedule::Zero::always);
+  EXPECT_FALSE(never.due(0.0, 0.1));
+  EXPECT_TRUE(always.due(0.0, 0.1));
+  EXPECT_TRUE(always.due(0.1, 0.1));
+}
+
+}  // namespace
+}  // namespace drogue::app
