@@ -25,7 +25,7 @@ find src tests bench -name '*.[ch]pp' | sort | xargs awk '
     home["p4est"] = home["p8est"] = home["sc.h"] = home["sc_"] = home["mpi.h"] = "src/amr/"
     home["hdf5"]      = "src/io/hdf5"
     home["toml++/"]   = "src/app/"
-    home["CLI/"]      = "src/app/"
+    home["CLI/"]      = "src/app/ src/render/"
     home["nlohmann/"] = "src/io/ src/app/"
     home["muParser"]  = "src/core/"
     home["vtk"]       = "src/render/"

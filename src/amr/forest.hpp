@@ -16,6 +16,7 @@
 #include <functional>
 #include <optional>
 #include <span>
+#include <string>
 #include <unordered_map>
 #include <vector>
 
@@ -110,6 +111,9 @@ class Forest {
   std::vector<std::array<BlockRange, 4>> ranges_;
   std::unordered_map<std::uint64_t, int> by_index_;  // (level, index) -> id, boundary blocks included
 };
+
+/// Version of the library that keeps the octree.
+std::string octree_library_version();
 
 /// Refine blocks that share volume with `region` until their cells are at most `spacing` [m]; a region that is flat
 /// along an axis refines the blocks on both sides of a face it lies on. Throws InputError if `spacing` is not positive.

@@ -10,6 +10,7 @@
 #include <exception>
 #include <memory>
 
+#include "amr/forest.hpp"
 #include "amr/mpi_runtime.hpp"
 
 namespace drogue::amr {
@@ -88,5 +89,7 @@ std::vector<Leaf> balanced_leaves(const Index3& trees, const std::array<bool, 3>
   p8est_balance(octree.get(), P8EST_CONNECT_FULL, nullptr);
   return read_leaves(*octree, places);
 }
+
+std::string octree_library_version() { return P4EST_VERSION; }
 
 }  // namespace drogue::amr

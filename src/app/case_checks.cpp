@@ -189,27 +189,27 @@ void check_case(const Case& c) {
 }
 
 void check_body_in_grid(const Case& c, const Body& body, const fem::HexMesh& mesh, const amr::Forest& forest) {
-  const std::string key = "body." + body.name;
-  const double finest = std::ldexp(c.domain.coarsest, -level_of(c.domain.coarsest, c.finest));
+  const std::string key = "body." + body.name + ".mesh";
   for (const Vec3& node : mesh.nodes) {
-    if (!c.domain.box.contains(node)) {
-      fail(c, key + ".mesh", fmt::format("lies outside the domain: its node at {} m", write_value(node)));
-    }
+    if (c.domain.box.contains(node)) continue;
+    fail(c, key, fmt::format("lies outside the domain: its node at {} m", write_value(node)));
+  }
+  const int finest = level_of(c.domain.coarsest, c.finest);
+  for (const Vec3& node : mesh.nodes) {
     for (int corner = 0; corner < 8; ++corner) {
       const Vec3 sign(corner & 1 ? 1 : -1, corner & 2 ? 1 : -1, corner & 4 ? 1 : -1);
-      const auto place = forest.locate(node + delta_margin * finest * sign);
+      const auto place = forest.locate(node + delta_margin * c.finest * sign);
       if (!place) {
-        fail(c, key + ".mesh",
+        fail(c, key,
              fmt::format("comes within {} cells of a side of the domain: its node at {} m", delta_margin,
                          write_value(node)));
       }
       const int level = forest.block(place->block).level;
-      if (level == level_of(c.domain.coarsest, c.finest)) continue;
-      fail(c, key + ".mesh",
-           fmt::format(
-               "does not lie in cells of grid.finest = {} m with {} cells around it: its node at {} m meets cells "
-               "of {} m; widen a grid.region",
-               c.finest, delta_margin, write_value(node), forest.spacing(level)));
+      if (level == finest) continue;
+      fail(c, key,
+           fmt::format("does not lie in cells of grid.finest = {} m with {} cells around it: its node at {} m meets "
+                       "cells of {} m; widen a grid.region",
+                       c.finest, delta_margin, write_value(node), forest.spacing(level)));
     }
   }
 }

@@ -268,11 +268,9 @@ void read_results(Section section, Case& c) {
   c.results.body =
       section.get<std::string>("body", {.doc = "whose results are summarised; by default the first", .derived = first});
   c.results.stable_window =
-      section
-          .find<Pair>("stable_window", {.unit = "s",
-                                        .doc = "over which stable values are averaged; by default the second half",
-                                        .derived = Pair{0.5 * c.end, c.end}})
-          .value_or(Pair{});
+      section.get<Pair>("stable_window", {.unit = "s",
+                                          .doc = "over which stable values are averaged; by default the second half",
+                                          .derived = Pair{0.5 * c.end, c.end}});
   c.results.peak_from = section.get<double>("peak_from", {.unit = "s",
                                                           .doc = "peaks before it are not counted: an impulsive "
                                                                  "start is no peak",

@@ -2,7 +2,6 @@
 #include <H5public.h>
 #include <fmt/format.h>
 #include <omp.h>
-#include <p4est_config.h>
 #include <spdlog/version.h>
 #include <toml++/toml.h>
 
@@ -11,6 +10,7 @@
 #include <nlohmann/json.hpp>
 #include <vector>
 
+#include "amr/forest.hpp"
 #include "app/inspect.hpp"
 #include "app/version.hpp"
 
@@ -57,7 +57,7 @@ std::string build_info() {
   text += fmt::format(
       "libraries  p4est {}, HDF5 {}.{}.{}, Eigen {}.{}.{}, toml++ {}.{}.{}, spdlog {}.{}.{}, fmt {}.{}.{}, "
       "nlohmann-json {}.{}.{}\n",
-      P4EST_VERSION, H5_VERS_MAJOR, H5_VERS_MINOR, H5_VERS_RELEASE, EIGEN_WORLD_VERSION, EIGEN_MAJOR_VERSION,
+      amr::octree_library_version(), H5_VERS_MAJOR, H5_VERS_MINOR, H5_VERS_RELEASE, EIGEN_WORLD_VERSION, EIGEN_MAJOR_VERSION,
       EIGEN_MINOR_VERSION, TOML_LIB_MAJOR, TOML_LIB_MINOR, TOML_LIB_PATCH, SPDLOG_VER_MAJOR, SPDLOG_VER_MINOR,
       SPDLOG_VER_PATCH, FMT_VERSION / 10000, FMT_VERSION / 100 % 100, FMT_VERSION % 100, NLOHMANN_JSON_VERSION_MAJOR,
       NLOHMANN_JSON_VERSION_MINOR, NLOHMANN_JSON_VERSION_PATCH);

@@ -3,13 +3,13 @@
 //   M d(v_m)/dt = f_a + f_b,   mu d(v_d)/dt = s_b f_a - s_a f_b,   mu = m_a m_b / (m_a + m_b),
 // which with M = m_a + m_b is the motion of two free nodes, and a mechanical system with any other M.
 //
-// Explicit scheme of Tchamwa and Wielgosz (Maheo, Grolleau & Rio, Finite Elem. Anal. Des. 45, 2009), phi = 1 +
-// dissipation:
+// Explicit scheme of Tchamwa and Wielgosz (Maheo, Grolleau & Rio, C. R. Mecanique 337, 2009,
+// doi:10.1016/j.crme.2009.10.005) with phi = 1 + dissipation:
 //   v_{n+1} = v_n + dt a_n,   x_{n+1} = x_n + dt v_n + phi dt^2 a_n.
-// Stable for omega dt <= 2 / sqrt(2 phi - 1). A sub-step multiplies the squared modulus of a mode by 1 - (phi - 1)
-// (omega dt)^2, so only what it barely resolves is damped. First order; with phi = 1 the leapfrog scheme, v standing
-// half a sub-step behind x, and then it conserves linear and angular momentum to round-off. Tethers enter at the end of
-// the sub-step, which stays diagonal, so that a stiff one does not shorten it.
+// Stable for omega dt <= 2 / sqrt(2 phi - 1). A sub-step multiplies the squared modulus of a mode by
+// 1 - (phi - 1) (omega dt)^2, so only what it barely resolves is damped. First order; with phi = 1 the leapfrog scheme,
+// v standing half a sub-step behind x, and then it conserves linear and angular momentum to round-off. Tethers enter at
+// the end of the sub-step, which stays diagonal, so that a stiff one does not shorten it.
 #include <fmt/format.h>
 
 #include <algorithm>

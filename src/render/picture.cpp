@@ -115,40 +115,44 @@ void add_colour_bar(vtkRenderer* renderer, vtkLookupTable* colours, const char* 
   bar->UnconstrainedFontSizeOn();
   bar->SetPosition(0.05, bottom);
   bar->SetWidth(0.7);
-  bar->SetHeight(height - 0.05);
+  bar->SetHeight(height - 2.0 * pixels / renderer->GetRenderWindow()->GetSize()[1]);
   set_style(bar->GetLabelTextProperty(), pixels);
   renderer->AddViewProp(bar);
   add_text(renderer, title, 0.05, bottom + height, pixels, false);
 }
 
-Range scalar_range(const std::vector<vtkPolyData*>& surfaces) {
-  double lowest = 0.0, highest = 0.0;
-  for (vtkPolyData* surface : surfaces) {
-    if (!surface || surface->GetNumberOfPoints() == 0) continue;
-    std::array<double, 2> range;
-    surface->GetPointData()->GetScalars()->GetRange(range.data());
-    lowest = std::min(lowest, range[0]);
-    highest = std::max(highest, range[1]);
-  }
-  return round_range(lowest, highest);
+/// Range of the lowest `share` of the values: a few extremes at edges should not take the colours from the rest.
+Range scalar_range(const std::vector<vtkPolyData*>& surfaces, double share) {
+  std::vector<double> values;
+  for (vtkPolyData* surface : surfaces)
+    for (vtkIdType n = 0; n < surface->GetNumberOfPoints(); ++n)
+      values.push_back(surface->GetPointData()->GetScalars()->GetComponent(n, 0));
+  if (values.empty()) return round_range(0.0, 0.0);
+  const auto highest = values.begin() + static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size() - 1));
+  std::nth_element(values.begin(), highest, values.end());
+  return round_range(*std::min_element(values.begin(), values.end()), *highest);
 }
 
-/// The boxes of what a row shows of all scenes.
-std::vector<Box> extents(const std::vector<Scene>& scenes, const Content& content) {
-  std::vector<Box> boxes;
+/// Points of what a row shows of all scenes, enough of them to fit the camera to.
+std::vector<Vec3> outline(const std::vector<Scene>& scenes, const Content& content) {
+  constexpr vtkIdType enough = 4000;
+  std::vector<Vec3> points;
   const auto include = [&](vtkPolyData* surface) {
-    if (!surface || surface->GetNumberOfPoints() == 0) return;
-    const double* b = surface->GetBounds();
-    boxes.push_back({{b[0], b[2], b[4]}, {b[1], b[3], b[5]}});
+    const vtkIdType count = surface ? surface->GetNumberOfPoints() : 0;
+    for (vtkIdType n = 0; n < count; n += 1 + count / enough) surface->GetPoint(n, points.emplace_back().data());
   };
   for (const Scene& scene : scenes) {
     for (const auto& canopy : scene.canopy)
       if (content.canopy) include(canopy);
-    if (content.slice) include(scene.slice);
+    if (content.slice) {
+      const double* b = scene.slice->GetBounds();
+      for (int corner = 0; corner < 8; ++corner)
+        points.emplace_back(b[corner & 1], b[2 + (corner >> 1 & 1)], b[4 + (corner >> 2)]);
+    }
     if (content.q) include(scene.q);
   }
-  if (boxes.empty()) boxes.push_back({Vec3::Constant(-1.0), Vec3::Constant(1.0)});
-  return boxes;
+  if (points.empty()) points = {Vec3::Constant(-1.0), Vec3::Constant(1.0)};
+  return points;
 }
 
 /// Small axes, as seen from where the row is seen.
@@ -171,7 +175,8 @@ void add_axes(vtkRenderWindow* window, const Rectangle& place, const View& view,
                             axes->GetXAxisTipProperty(), axes->GetYAxisTipProperty(), axes->GetZAxisTipProperty()})
     part->SetColor(ink[0], ink[1], ink[2]);
   renderer->AddActor(axes);
-  fit(renderer->GetActiveCamera(), {{Vec3::Constant(-0.6), Vec3::Constant(1.4)}}, view, 1.0);
+  fit(renderer->GetActiveCamera(),
+      {Vec3::Constant(-0.6), Vec3(1.4, -0.6, -0.6), Vec3(-0.6, 1.4, -0.6), Vec3(-0.6, -0.6, 1.4)}, view, 1.0);
 }
 
 struct Colours {
@@ -186,10 +191,10 @@ Colours common_colours(const std::vector<Scene>& scenes, Quantity field) {
     if (scene.q) isos.push_back(scene.q);
   }
   Colours colours;
-  if (!canopies.empty()) colours.displacement = lookup_table(ColourMap::embers, scalar_range(canopies));
+  if (!canopies.empty()) colours.displacement = lookup_table(ColourMap::embers, scalar_range(canopies, 1.0));
   if (!slices.empty() || !isos.empty())
     colours.field = lookup_table(field == Quantity::speed ? ColourMap::blues_reversed : ColourMap::blues,
-                                 scalar_range(slices.empty() ? isos : slices));
+                                 scalar_range(slices.empty() ? isos : slices, 0.99));
   return colours;
 }
 
@@ -279,7 +284,7 @@ void draw(const std::vector<Scene>& scenes, const Picture& picture, const std::f
   lights->SetKeyLightIntensity(0.95);
   for (std::size_t r = 0; r < picture.rows.size(); ++r) {
     const auto& [content, view] = picture.rows[r];
-    const std::vector<Box> boxes = extents(scenes, content);
+    const std::vector<Vec3> points = outline(scenes, content);
     const double bottom = (picture.rows.size() - 1 - r) * panel_height;
     add_axes(window, {0.0, bottom, gutter, 5.0 * text / height}, view, text);
     for (std::size_t s = 0; s < scenes.size(); ++s) {
@@ -287,7 +292,7 @@ void draw(const std::vector<Scene>& scenes, const Picture& picture, const std::f
       const auto renderer = add_renderer(window, panel);
       add_scene(renderer, scenes[s], content, colours, 0.0016 * height);
       lights->AddLightsToRenderer(renderer);
-      fit(renderer->GetActiveCamera(), boxes, view, panel_width * width / (panel_height * height));
+      fit(renderer->GetActiveCamera(), points, view, panel_width * width / (panel_height * height));
       renderer->ResetCameraClippingRange();
     }
   }

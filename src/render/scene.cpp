@@ -160,13 +160,15 @@ Scene load_scene(const RunFolder& run, double time, const Content& content, cons
     if (all.empty()) throw InputError(fmt::format("{} holds no {} snapshots", run.folder.string(), kind));
     return nearest(all, time);
   };
+  const bool flow = content.slice || content.q;
   Scene scene;
+  if (flow) time = frames(run.fluid, "fluid").front().time;  // the flow is saved less often: the canopy follows it
   if (content.canopy || !run.canopy.empty())
     for (const Frame& frame : frames(run.canopy, "canopy")) {
       scene.canopy.push_back(canopy_surface(frame.file));
       scene.time = frame.time;
     }
-  if (content.slice || content.q) {
+  if (flow) {
     const Frame frame = frames(run.fluid, "fluid").front();
     scene.time = frame.time;
     const io::FluidSnapshot snapshot = io::read_fluid(frame.file);

@@ -36,7 +36,8 @@ struct Scene {
   vtkSmartPointer<vtkPolyData> q;
 };
 
-/// Loads the frames nearest to `time` [s]. Throws InputError if the run has none of a kind that `content` needs.
+/// Loads the frames nearest to `time` [s]: of the flow if it is asked for, and the canopy nearest to that. Throws
+/// InputError if the run has none of a kind that `content` needs.
 Scene load_scene(const RunFolder& run, double time, const Content& content, const Choice& choice);
 
 /// The time [s] that a canopy file holds as TimeValue; 0 without.

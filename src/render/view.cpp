@@ -16,17 +16,6 @@ namespace {
 constexpr double view_angle = 24.0;  // [degrees] from top to bottom
 constexpr double margin = 1.05;
 
-std::vector<Vec3> corners(const std::vector<Box>& boxes) {
-  std::vector<Vec3> points;
-  for (const Box& box : boxes)
-    for (int corner = 0; corner < 8; ++corner) {
-      Vec3 p;
-      for (int a = 0; a < 3; ++a) p[a] = corner >> a & 1 ? box.upper[a] : box.lower[a];
-      points.push_back(p);
-    }
-  return points;
-}
-
 }  // namespace
 
 View named_view(const std::string& name, const Content& content) {
@@ -43,10 +32,9 @@ View named_view(const std::string& name, const Content& content) {
 
 // Perspective enlarges what is near, so the middle of the boxes is not the middle of their picture: distance and aim
 // are improved in turn, which settles in a few rounds.
-void fit(vtkCamera* camera, const std::vector<Box>& boxes, const View& view, double aspect) {
+void fit(vtkCamera* camera, const std::vector<Vec3>& points, const View& view, double aspect) {
   const Vec3 back = view.from.normalized(), right = view.up.cross(back).normalized(), up = back.cross(right);
   const double tangent = std::tan(0.5 * view_angle * M_PI / 180.0);
-  const std::vector<Vec3> points = corners(boxes);
   Vec3 aim = Vec3::Zero();
   for (const Vec3& p : points) aim += p / static_cast<double>(points.size());
 

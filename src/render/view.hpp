@@ -20,7 +20,7 @@ struct View {
 /// iso, back, upstream, downstream, side, top; or auto: what suits the content. Throws InputError naming the choices.
 View named_view(const std::string& name, const Content& content);
 
-/// Places the camera so that all boxes [m] fill a picture of `aspect` width over height.
-void fit(vtkCamera* camera, const std::vector<Box>& boxes, const View& view, double aspect);
+/// Places the camera so that the points [m] fill a picture of `aspect` width over height.
+void fit(vtkCamera* camera, const std::vector<Vec3>& points, const View& view, double aspect);
 
 }  // namespace drogue::render

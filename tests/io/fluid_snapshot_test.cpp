@@ -65,8 +65,7 @@ TEST(FluidSnapshot, levels_are_nested_and_the_coarsest_fills_the_domain) {
   for (std::size_t level = 0; level < snapshot.levels.size(); ++level) {
     const std::set<Index3> blocks(snapshot.levels[level].block.begin(), snapshot.levels[level].block.end());
     EXPECT_EQ(blocks.size(), snapshot.levels[level].block.size());
-    for (const Index3& b : blocks)
-      EXPECT_TRUE(level == 0 || above.contains({b[0] / 2, b[1] / 2, b[2] / 2}));
+    for (const Index3& b : blocks) EXPECT_TRUE(level == 0 || above.contains({b[0] / 2, b[1] / 2, b[2] / 2}));
     above = blocks;
   }
 }
