@@ -204,6 +204,22 @@ Vec3 Structure::mean_velocity(int point) const { return data_->points[point].mea
 
 int Structure::substeps() const { return data_->substeps; }
 double Structure::largest_frequency() const { return data_->largest_frequency; }
+void Structure::add_hold_force(std::span<const Vec3> position, std::span<const Vec3> velocity,
+                               std::span<Vec3> force) const {
+  const std::span<const double> volumes = volume();
+  for (const Hold& hold : data_->holds) {
+    if (hold.rigid) continue;
+    for (const int node : hold.nodes) {
+      force[node] +=
+          volumes[node] * (hold.stiffness * (data_->mesh.nodes[node] - position[node]) - hold.damping * velocity[node]);
+    }
+  }
+}
+
+bool Structure::is_held_rigidly(int node) const {
+  return data_->hold_of_node[node] && data_->hold_of_node[node]->rigid;
+}
+
 Vec3 Structure::reaction() const { return data_->reaction; }
 
 void Structure::internal_force(std::span<const Vec3> position, std::span<Vec3> force) const {

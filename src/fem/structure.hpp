@@ -72,6 +72,9 @@ class Structure {
 
   /// Nodal forces of the elements [N] (minus the gradient of the energy) at the given positions.
   void internal_force(std::span<const Vec3> position, std::span<Vec3> force) const;
+  /// Adds the forces of the tethers [N]; rigid holds have none, their nodes must be kept where they are.
+  void add_hold_force(std::span<const Vec3> position, std::span<const Vec3> velocity, std::span<Vec3> force) const;
+  bool is_held_rigidly(int node) const;
   Vec3 reaction() const;                             ///< [N] mean force of all holds on the body over the last advance
   double elastic_energy() const;                     ///< [J]
   double kinetic_energy() const;                     ///< [J] with the point and difference masses in use

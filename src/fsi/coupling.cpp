@@ -39,18 +39,6 @@ void expect_neutrally_buoyant(const fem::Structure& structure, const CouplingOpt
   }
 }
 
-/// Adds the tether forces [N] and tells which nodes are held rigidly.
-template <class Solid>
-std::span<const std::uint8_t> add_hold_force(const Solid& solid, std::span<const Vec3> position,
-                                             std::span<Vec3> force) {
-  if constexpr (requires { solid.hold_force(position, solid.velocity(), force); }) {
-    solid.hold_force(position, solid.velocity(), force);
-    return solid.rigid();
-  } else {
-    throw InputError("the peskin scheme needs the forces of the holds, which fem::Structure does not give yet");
-  }
-}
-
 /// Weighted with the dragged mass, which on a sheet is proportional to the area.
 double root_mean_square(std::span<const Vec3> slip, std::span<const double> weight) {
   double sum = 0.0, weights = 0.0;
@@ -128,15 +116,15 @@ void Coupling::step_as_peskin(fluid::FineStep& step) {
                                options_.body, smallest, largest, step.time - step.dt));
   }
   structure_->internal_force(position_, force_);
-  const auto rigid = add_hold_force(*structure_, position_, force_);
+  structure_->add_hold_force(position_, structure_->velocity(), force_);
   for (int p = 0; p < points_.size(); ++p) {
-    if (rigid[p]) force_[p] = -points_.dragged_mass[p] / step.dt * fluid_velocity_[p];
+    if (structure_->is_held_rigidly(p)) force_[p] = -points_.dragged_mass[p] / step.dt * fluid_velocity_[p];
   }
   give_to_fluid(step);
 
   markers_.interpolate(step, fluid_velocity_);
   for (int p = 0; p < points_.size(); ++p) {
-    if (rigid[p]) fluid_velocity_[p].setZero();
+    if (structure_->is_held_rigidly(p)) fluid_velocity_[p].setZero();
     position_[p] += step.dt * fluid_velocity_[p];
   }
   structure_->set_state(position_, fluid_velocity_);
