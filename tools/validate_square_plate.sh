@@ -41,19 +41,19 @@ value() { sed -n "s/^ *\"$2\": \([-0-9.e+]*\|null\|true\|false\),\{0,1\}$/\1/p" 
 row() {
   local name=$1 what=$2 summary=$runs/$1/summary.json key cells=()
   [[ -f $summary ]] || return 0
-  for key in cd_peak cd_peak_time cd_stable cd_stable_drift centre_dx_peak centre_dx_stable wall_seconds; do
+  for key in cd_peak cd_peak_time cd_stable cd_stable_drift centre_dx_peak centre_dx_stable; do
     cells+=("$(value "$summary" $key | awk '{ if ($1 == "null" || $1 == "") print "-"; else printf "%.3g\n", $1 }')")
   done
   [[ $(value "$summary" finished) == true ]] || what+=" (ended at $(value "$summary" t_end | awk '{ printf "%.2f", $1 }') s)"
-  printf '| `%s` | %s | %s | %s | %s | %s | %s | %s | %s |\n' "$name" "$what" "${cells[@]}"
+  printf '| `%s` | %s | %s | %s | %s | %s | %s | %s |\n' "$name" "$what" "${cells[@]}"
 }
 
 write_table() {
   local table name what arguments
   table=$(mktemp)
   {
-    echo '| run | what differs | C_D peak | at [s] | C_D 4 to 8 s | drift | dx peak [m] | dx 4 to 8 s [m] | wall [s] |'
-    echo '|---|---|---|---|---|---|---|---|---|'
+    echo '| run | what differs | C_D peak | at [s] | C_D 4 to 8 s | drift | dx peak [m] | dx 4 to 8 s [m] |'
+    echo '|---|---|---|---|---|---|---|---|'
     while IFS='|' read -r name what arguments; do row "$name" "$what"; done < <(matrix)
   } >"$table"
   sed -i -e "/<!-- square plate -->/,/<!-- end -->/ { /<!--/! d }" -e "/<!-- square plate -->/r $table" "$page"

@@ -21,7 +21,7 @@ namespace fs = std::filesystem;
 constexpr std::array<std::string_view, 5> files{"case.resolved.toml", "history.csv", "summary.json", "log.txt",
                                                 "frames.csv"};
 constexpr std::array<std::string_view, 3> series_prefixes{"fluid", "canopy", "checkpoint"};
-constexpr std::array<std::string_view, 4> series_suffixes{".vtkhdf", ".vtu", ".series", ".h5"};
+constexpr std::array<std::string_view, 4> series_suffixes{".hdf", ".vtu", ".series", ".h5"};
 
 bool belongs_to_run(const std::string& name) {
   for (std::string_view file : files) {

@@ -23,9 +23,9 @@ void Snapshots::write_due(const fluid::FluidSolver& fluid, const std::vector<std
 }
 
 void Snapshots::write_fluid(const fluid::FluidSolver& fluid) {
-  const std::string file = fmt::format("fluid_{:06d}.vtkhdf", fluid_index_);
+  const std::string file = fmt::format("fluid_{:06d}.hdf", fluid_index_);
   io::write_fluid(folder_ / file, fluid);
-  list("fluid", fluid_index_++, fluid.time(), "fluid.vtkhdf.series", file);
+  list("fluid", fluid_index_++, fluid.time(), "fluid.hdf.series", file);
 }
 
 void Snapshots::write_bodies(double time, const std::vector<std::unique_ptr<CoupledBody>>& bodies) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// ParaView's file series: a JSON list of files with their times, named `fluid.vtkhdf.series`, `canopy.vtu.series`.
+// ParaView's file series: a JSON list of files with their times, named `fluid.hdf.series`, `canopy.vtu.series`.
 #pragma once
 
 #include <filesystem>

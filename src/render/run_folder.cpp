@@ -59,7 +59,7 @@ RunFolder open_run(const std::filesystem::path& folder) {
   else
     scan_names(run);
   if (run.canopy.empty() && run.fluid.empty())
-    throw InputError(fmt::format("{} holds no snapshots: expected canopy_*.vtu or fluid_*.vtkhdf", folder.string()));
+    throw InputError(fmt::format("{} holds no snapshots: expected canopy_*.vtu or fluid_*.hdf", folder.string()));
   const auto earlier = [](const Frame& a, const Frame& b) {
     return a.time != b.time ? a.time < b.time : a.file < b.file;
   };

@@ -72,8 +72,8 @@ TEST_F(Run, leaves_history_summary_log_and_resolved_case) {
   const auto columns = std::ranges::count(lines[0], ',');
   for (const std::string& line : lines) EXPECT_EQ(std::ranges::count(line, ','), columns);
 
-  for (const char* file : {"log.txt", "case.resolved.toml", "frames.csv", "fluid_000000.vtkhdf", "canopy_000000.vtu",
-                           "canopy_000002.vtu", "canopy.vtu.series", "fluid.vtkhdf.series"}) {
+  for (const char* file : {"log.txt", "case.resolved.toml", "frames.csv", "fluid_000000.hdf", "canopy_000000.vtu",
+                           "canopy_000002.vtu", "canopy.vtu.series", "fluid.hdf.series"}) {
     EXPECT_TRUE(fs::exists(options_.folder / file)) << file;
   }
   EXPECT_EQ(read_case(options_.folder / "case.resolved.toml").output.canopy, 0.0125);
