@@ -23,13 +23,16 @@ patch-63mm|held patch 1/16 m|$plate --set body.plate.hold.0.patch=0.063
 mesh-26|26 x 26 hexahedra|$plate --set body.plate.mesh.elements=[26,26,1]
 mesh-104|104 x 104 hexahedra|$plate --set body.plate.mesh.elements=[104,104,1]
 delta-3|three-point delta|$plate --set body.plate.coupling.delta=peskin3
-peskin|plain IB/FE coupling|$plate --set body.plate.coupling.scheme=peskin
+peskin|plain IB/FE coupling, corners held rigidly|$plate --set body.plate.coupling.scheme=peskin --set body.plate.hold=[{nodes="corners",patch=0.032,rigid=true}]
+hold-rigid|corners held rigidly|$plate --set body.plate.hold=[{nodes="corners",patch=0.032,rigid=true}]
 tether-soft|tether 100 times as soft|$plate --set body.plate.hold.0.stiffness=1.5e6
 stab-0|numerical Poisson's ratio 0|$plate --set body.plate.material.poisson_stabilisation=0
 density-air|fluid and plate of 1.225 kg/m^3|$plate --set fluid.density=1.225 --set body.plate.density=1.225
 start-ramp|start from rest, inlet ramp of 0.5 s|$plate --set fluid.initial=rest --set domain.x_min.ramp=0.5
 wake|finest cells to x = 2, y and z to 1|$plate --set grid.region.1.spacing=1/64 --set grid.region.1.box=[[-0.25,-1,-1],[2,1,1]]
 rigid|all nodes held|$plate --set body.plate.hold=[{nodes="all",rigid=true}]
+wide|domain of 16 x 8 x 8 m|$plate --set domain.lower=[-4,-4,-4] --set domain.upper=[12,4,4]
+rigid-wide|all nodes held, domain of 16 x 8 x 8 m|$plate --set domain.lower=[-4,-4,-4] --set domain.upper=[12,4,4] --set body.plate.hold=[{nodes="all",rigid=true}]
 svk|Saint Venant-Kirchhoff|$svk
 svk-patch-16mm|Saint Venant-Kirchhoff, held patch 1/64 m|$svk --set body.plate.hold.0.patch=0.016
 svk-step-half|Saint Venant-Kirchhoff, half the time step|$svk --set fluid.lattice_velocity=0.025

@@ -28,6 +28,9 @@ inline constexpr int block_size = 16;  ///< cells per block edge
 inline constexpr int block_cells = block_size * block_size * block_size;
 inline constexpr int none = -1;
 
+/// Cell number `i` of a block in the order [z][y][x].
+constexpr Index3 cell_at(int i) { return {i % block_size, i / block_size % block_size, i / (block_size * block_size)}; }
+
 enum class Kind : std::uint8_t { leaf, parent, ghost, boundary };
 
 /// Position of the neighbour at `offset` (each of -1, 0, 1) among the 27; the block itself is 13.

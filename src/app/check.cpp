@@ -55,7 +55,7 @@ double sum(std::span<const double> values) { return std::accumulate(values.begin
 
 std::string body_text(const Case& c, const CoupledBody& body, int finest) {
   const fem::Structure& s = body.structure;
-  const double stable = body.description.structure.safety * 2.0 / s.largest_frequency();
+  const double stable = s.stable_step();
   std::string text = fmt::format(
       "body    {}: {} nodes, {} elements, {} points on the fluid; mass {:.4g} kg, {:.4g} kg with the fluid it drags\n"
       "        stable step {:.3g} s, {:.0f} sub-steps in a fine step of {:.3g} s\n",

@@ -220,6 +220,8 @@ bool Structure::is_held_rigidly(int node) const {
   return data_->hold_of_node[node] && data_->hold_of_node[node]->rigid;
 }
 
+double Structure::stable_step() const { return data_->stable_step(); }
+
 Vec3 Structure::reaction() const { return data_->reaction; }
 
 void Structure::internal_force(std::span<const Vec3> position, std::span<Vec3> force) const {

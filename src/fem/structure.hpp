@@ -68,6 +68,7 @@ class Structure {
   /// bounds.
   void advance(double dt, double time);
   int substeps() const;              ///< taken by the last advance
+  double stable_step() const;        ///< [s] longest sub-step of the scheme, safety included, for largest_frequency()
   double largest_frequency() const;  ///< [rad/s] upper estimate from the elements as deformed, behind the sub-step
 
   /// Nodal forces of the elements [N] (minus the gradient of the energy) at the given positions.

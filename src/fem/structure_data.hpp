@@ -52,6 +52,7 @@ struct Structure::Data {
   void assign_points(Inertia inertia);
   void compare_masses();
   void estimate_largest_frequency();
+  double stable_step() const;
   int substeps_for(double dt) const;
   void stop_rigidly_held();
   void move(std::size_t point, double dt);

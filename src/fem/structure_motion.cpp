@@ -79,11 +79,14 @@ void Structure::Data::estimate_largest_frequency() {
   largest_frequency = std::sqrt(stiffest / options.density);
 }
 
+double Structure::Data::stable_step() const {
+  return options.safety * 2.0 / (std::sqrt(1.0 + 2.0 * options.dissipation) * largest_frequency);
+}
+
 int Structure::Data::substeps_for(double dt) const {
   // Far beyond any useful count: a state that asks for more is on its way out of the bounds of J.
   constexpr int most = 1'000'000;
-  const double stable_step = 2.0 / (std::sqrt(1.0 + 2.0 * options.dissipation) * largest_frequency);
-  const double count = std::ceil(dt / (options.safety * stable_step));
+  const double count = std::ceil(dt / stable_step());
   return count < most ? std::max(1, static_cast<int>(count)) : most;
 }
 

@@ -51,7 +51,6 @@ template <class S>
 void BasicSolver<S>::step(fluid::FineStepHook* hook) {
   statistics_.max_mach = statistics_.max_speed = 0.0;
   advance(0, hook);
-  time_ = levels_[0].time;
 }
 
 template <class S>
@@ -101,6 +100,21 @@ void BasicSolver<S>::stream_and_collide(int level) {
   const double speed = std::sqrt(max_speed_squared);
   statistics_.max_speed = std::max(statistics_.max_speed, speed * units_.velocity);
   statistics_.max_mach = std::max(statistics_.max_mach, speed / std::sqrt(sound_speed_squared));
+}
+
+template <class S>
+void BasicSolver<S>::apply_sponge(int level) {
+  const Level& l = levels_[level];
+  const int count = static_cast<int>(l.sponge.size());
+#pragma omp parallel for schedule(static)
+  for (int i = 0; i < count; ++i) {
+    const SpongeCell& s = l.sponge[i];
+    std::byte* row = field_[1 - l.now].row(s.block, s.cell[1], s.cell[2]);
+    for (const Moment m : {drho, ux, uy, uz}) {
+      float& value = RowLayout<S>::macro(row, m)[s.cell[0]];
+      value += s.damping * (s.rest[m] - value);
+    }
+  }
 }
 
 /// At the start of the coarse step (`midway` false) everything is taken at its time; half-way through, coarse leaves
@@ -177,7 +191,7 @@ void BasicSolver<S>::report_divergence(int level) const {
   const Level& l = levels_[level];
   for (int id = leaves.begin; id < leaves.end; ++id)
     for (int cell = 0; cell < amr::block_cells; ++cell) {
-      const Index3 at{cell % n, cell / n % n, cell / (n * n)};
+      const Index3 at = amr::cell_at(cell);
       const std::byte* row = field_[1 - l.now].row(id, at[1], at[2]);
       float speed = 0.0f;
       for (const Moment m : {ux, uy, uz}) speed += Layout::get(row, m, at[0]) * Layout::get(row, m, at[0]);

@@ -29,7 +29,7 @@ class BasicSolver : public fluid::FluidSolver {
   void step(fluid::FineStepHook* hook) override;
 
   const amr::Forest& forest() const override { return forest_; }
-  double time() const override { return time_; }
+  double time() const override { return levels_.front().time; }
   double coarse_dt() const override { return levels_.front().dt; }
   double fine_dt() const override { return levels_.back().dt; }
   const fluid::FluidStatistics& statistics() const override { return statistics_; }
@@ -41,14 +41,19 @@ class BasicSolver : public fluid::FluidSolver {
   double tau(int level) const { return levels_[level].relaxation.tau; }
 
  private:
+  struct SpongeCell {
+    int block;
+    Index3 cell;
+    float damping;              // share of the deviation taken per step
+    std::array<float, 4> rest;  // drho and u that it damps towards
+  };
   struct Level {
     double dt;          // [s]
     double time = 0.0;  // [s] of the field `now`
     int now = 0;        // which of the two fields holds the level's present
     Relaxation relaxation;
     TransferPlan from_coarser, to_parents;
-    std::vector<float> sponge;  // damping per step and cell, [block in sponge_blocks][cell]
-    std::vector<int> sponge_blocks;
+    std::vector<SpongeCell> sponge;
   };
 
   void initialise();
@@ -72,7 +77,6 @@ class BasicSolver : public fluid::FluidSolver {
   BoundaryFill<S> fill_boundary_;
   fluid::ForceField force_;
   std::array<std::vector<const float*>, 2> velocity_base_;  // per field and block, for the views
-  double time_ = 0.0;
   fluid::FluidStatistics statistics_;
 };
 

@@ -8,8 +8,6 @@
 namespace drogue::lbm {
 namespace {
 
-constexpr int n = amr::block_size;
-
 /// Initial moments of one cell: Pneq = -2/3 rho tau S from central differences of the given velocity.
 std::array<float, moments> initial_moments(const fluid::Specification& s, const Vec3& x, double dx, double tau,
                                            const Units& units) {
@@ -59,7 +57,7 @@ void BasicSolver<S>::initialise_block(int block, const fluid::Specification& spe
                        (!specification.initial_pressure || specification.initial_pressure->is_constant());
   std::array<float, moments> m;
   for (int cell = 0; cell < amr::block_cells; ++cell) {
-    const Index3 at{cell % n, cell / n % n, cell / (n * n)};
+    const Index3 at = amr::cell_at(cell);
     if (cell == 0 || !uniform)
       m = initial_moments(specification, forest_.cell_centre(block, at), forest_.spacing(level),
                           levels_[level].relaxation.tau, units_);
@@ -68,71 +66,41 @@ void BasicSolver<S>::initialise_block(int block, const fluid::Specification& spe
   }
 }
 
-/// Damping that grows with the square of the depth and takes e^-3 of a sound wave on its way through the layer.
+/// Damping that grows with the square of the depth and takes e^-3 of a sound wave on its way through the layer; where
+/// layers overlap the stronger one acts.
 template <class S>
 void BasicSolver<S>::build_sponge(int level) {
   Level& l = levels_[level];
   const auto leaves = forest_.range(level, amr::Kind::leaf);
   const Box& domain = forest_.domain().box;
   const double sound_speed = units_.velocity / std::sqrt(3.0);
-  for (int id = leaves.begin; id < leaves.end; ++id) {
-    std::vector<float> damping(amr::block_cells, 0.0f);
-    for (int f = 0; f < 6; ++f) {
-      const double thickness = specification_.face[f].sponge;
-      if (thickness <= 0.0) continue;
-      const int axis = f / 2;
-      for (int cell = 0; cell < amr::block_cells; ++cell) {
-        const double x = forest_.cell_centre(id, {cell % n, cell / n % n, cell / (n * n)})[axis];
-        const double depth = thickness - (f & 1 ? domain.upper[axis] - x : x - domain.lower[axis]);
-        if (depth <= 0.0) continue;
-        const double rate = 9.0 * sound_speed / thickness * std::pow(depth / thickness, 2);
-        damping[cell] = std::max(damping[cell], static_cast<float>(1.0 - std::exp(-rate * l.dt)));
+  for (int id = leaves.begin; id < leaves.end; ++id)
+    for (int i = 0; i < amr::block_cells; ++i) {
+      SpongeCell s{id, amr::cell_at(i), 0.0f, {}};
+      const Vec3 x = forest_.cell_centre(id, s.cell);
+      for (int f = 0; f < 6; ++f) {
+        const fluid::Face& face = specification_.face[f];
+        const int axis = f / 2;
+        const double depth = face.sponge - (f & 1 ? domain.upper[axis] - x[axis] : x[axis] - domain.lower[axis]);
+        if (face.sponge <= 0.0 || depth <= 0.0) continue;
+        const double rate = 9.0 * sound_speed / face.sponge * std::pow(depth / face.sponge, 2);
+        const auto damping = static_cast<float>(1.0 - std::exp(-rate * l.dt));
+        if (damping <= s.damping) continue;
+        s.damping = damping;
+        s.rest[drho] = static_cast<float>(face.pressure / units_.pressure);
       }
+      if (s.damping == 0.0f) continue;
+      for (int a = 0; a < 3; ++a)
+        s.rest[ux + a] = static_cast<float>(specification_.initial_velocity[a](x, 0.0) / units_.velocity);
+      l.sponge.push_back(s);
     }
-    if (std::all_of(damping.begin(), damping.end(), [](float d) { return d == 0.0f; })) continue;
-    l.sponge_blocks.push_back(id);
-    l.sponge.insert(l.sponge.end(), damping.begin(), damping.end());
-  }
-}
-
-template <class S>
-void BasicSolver<S>::apply_sponge(int level) {
-  using Layout = RowLayout<S>;
-  Level& l = levels_[level];
-  const int count = static_cast<int>(l.sponge_blocks.size());
-  if (count == 0) return;
-  std::array<float, 6> rest_density;
-  for (int f = 0; f < 6; ++f) rest_density[f] = static_cast<float>(specification_.face[f].pressure / units_.pressure);
-  const float target = *std::max_element(rest_density.begin(), rest_density.end(),
-                                         [](float a, float b) { return std::abs(a) < std::abs(b); });
-#pragma omp parallel
-  {
-    const std::array<Expression, 3> velocity = specification_.initial_velocity;
-#pragma omp for schedule(static)
-    for (int i = 0; i < count; ++i)
-      for (int cell = 0; cell < amr::block_cells; ++cell) {
-        const float d = l.sponge[i * amr::block_cells + cell];
-        if (d == 0.0f) continue;
-        const Index3 at{cell % n, cell / n % n, cell / (n * n)};
-        std::byte* row = field_[1 - l.now].row(l.sponge_blocks[i], at[1], at[2]);
-        const Vec3 x = forest_.cell_centre(l.sponge_blocks[i], at);
-        for (int a = 0; a < 3; ++a) {
-          float& u = Layout::macro(row, ux + a)[at[0]];
-          u += d * (static_cast<float>(velocity[a](x, 0.0) / units_.velocity) - u);
-        }
-        float& density = Layout::macro(row, drho)[at[0]];
-        density += d * (target - density);
-      }
-  }
 }
 
 #ifdef __F16C__
 template void BasicSolver<HalfStress>::initialise();
 template void BasicSolver<HalfStress>::build_sponge(int);
-template void BasicSolver<HalfStress>::apply_sponge(int);
 #endif
 template void BasicSolver<FloatStress>::initialise();
 template void BasicSolver<FloatStress>::build_sponge(int);
-template void BasicSolver<FloatStress>::apply_sponge(int);
 
 }  // namespace drogue::lbm

@@ -2,6 +2,9 @@
 // Solids in a fluid without dynamics, for the tests of this folder.
 #pragma once
 
+#include <gtest/gtest.h>
+#include <omp.h>
+
 #include <numeric>
 #include <random>
 #include <vector>
@@ -12,6 +15,16 @@
 namespace drogue::testing {
 
 inline constexpr double fluid_density = 1.2;
+
+/// Runs its tests on one thread: bodies this small only wait for others.
+class OnOneThread : public ::testing::Test {
+ protected:
+  OnOneThread() : threads_before_(omp_get_max_threads()) { omp_set_num_threads(1); }
+  ~OnOneThread() override { omp_set_num_threads(threads_before_); }
+
+ private:
+  int threads_before_;
+};
 
 /// Dragged mass over the fluid mass that a sheet of `thickness` displaces.
 inline double dragged_over_displaced(double spacing, double thickness) {

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <gtest/gtest.h>
-#include <omp.h>
 
 #include <algorithm>
 #include <cmath>
@@ -16,12 +15,8 @@ using namespace drogue::testing;
 constexpr double spacing = 1.0 / 16, dt = 1e-3;
 const Vec3 centre(1.02, 0.49, 0.51);
 
-/// On one thread: bodies this small only wait for others.
-class Peskin : public ::testing::Test {
+class Peskin : public OnOneThread {
  protected:
-  Peskin() : threads_before_(omp_get_max_threads()) { omp_set_num_threads(1); }
-  ~Peskin() override { omp_set_num_threads(threads_before_); }
-
   static fem::Structure solid(std::vector<fem::Hold> holds = {}) {
     return plate({.thickness = 0.02, .elements = 8, .holds = std::move(holds)}, centre);
   }
@@ -33,9 +28,6 @@ class Peskin : public ::testing::Test {
 
   const amr::Forest forest_ = periodic_box();
   FakeFluid fluid_{forest_, fluid_density};
-
- private:
-  int threads_before_;
 };
 
 TEST_F(Peskin, a_stress_free_solid_moves_with_the_fluid_and_leaves_it_alone) {

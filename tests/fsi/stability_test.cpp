@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Long runs in a fluid that only decays: what grows here grows by itself.
 #include <gtest/gtest.h>
-#include <omp.h>
 
 #include <algorithm>
 #include <cmath>
@@ -17,15 +16,7 @@ using namespace drogue::testing;
 constexpr double spacing = 1.0 / 16, dt = 4e-3;
 const Vec3 centre(1.02, 0.49, 0.51);
 
-/// On one thread: bodies this small only wait for others.
-class Stability : public ::testing::Test {
- protected:
-  Stability() : threads_before_(omp_get_max_threads()) { omp_set_num_threads(1); }
-  ~Stability() override { omp_set_num_threads(threads_before_); }
-
- private:
-  int threads_before_;
-};
+class Stability : public OnOneThread {};
 
 fem::Structure held_plate(double density = fluid_density) {
   PlateOptions options{.density = density, .thickness = 0.02, .elements = 8};

@@ -95,7 +95,7 @@ TEST(LevelTransfer, every_rim_a_leaf_streams_from_is_filled) {
         const int neighbour = forest.block(id).neighbour[slot];
         if (forest.block(neighbour).kind == amr::Kind::boundary) continue;
         for (int c = 0; c < amr::block_cells; ++c) {
-          const Index3 cell{c % n, c / n % n, c / (n * n)};
+          const Index3 cell = amr::cell_at(c);
           bool at_rim = true;
           for (int a = 0; a < 3; ++a) at_rim &= o[a] == 0 || cell[a] == (o[a] > 0 ? 0 : n - 1);
           if (!at_rim) continue;
