@@ -32,6 +32,8 @@ constexpr Column<BodyRow> body_columns[] = {
     {"face_difference_normal", "m/s", [](B b) { return b.face_difference[0]; }},
     {"face_difference", "m/s", [](B b) { return b.face_difference[1]; }},
     {"thickness_stretch", "1", [](B b) { return b.thickness_stretch; }},
+    {"plane_stress_thickness", "1", [](B b) { return b.plane_stress[0]; }},
+    {"plane_stress_misfit", "1", [](B b) { return b.plane_stress[1]; }},
     {"J_min", "1", [](B b) { return b.volume_ratio[0]; }},
     {"J_max", "1", [](B b) { return b.volume_ratio[1]; }},
     {"slip_normal", "m/s", [](B b) { return b.slip[0]; }},

@@ -23,6 +23,7 @@ struct BodyRow {
   double elastic_energy = 0.0, kinetic_energy = 0.0;  ///< [J]
   std::array<double, 2> face_difference{};  ///< velocity of one face less the other's: along normal, in full [m/s]
   double thickness_stretch = 1.0;
+  std::array<double, 2> plane_stress{1.0, 0.0};  ///< fem::Structure::plane_stress_comparison
   std::array<double, 2> volume_ratio{1.0, 1.0};  ///< smallest and largest J
   std::array<double, 2> slip{};                  ///< of the fluid past the body: along normal, rms [m/s]
   int substeps = 0;

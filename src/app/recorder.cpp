@@ -71,6 +71,7 @@ BodyRow Recorder::measure(CoupledBody& body, const fluid::FluidSolver& fluid) co
   row.kinetic_energy = structure.kinetic_energy();
   row.face_difference = structure.face_velocity_difference();
   row.thickness_stretch = structure.mean_thickness_stretch();
+  row.plane_stress = structure.plane_stress_comparison();
   row.volume_ratio = structure.volume_ratio_range();
   row.slip = body.coupling.slip(fluid.fine_velocity());
   row.substeps = structure.substeps();

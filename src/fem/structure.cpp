@@ -9,6 +9,7 @@
 
 #include "core/error.hpp"
 #include "fem/hex_topology.hpp"
+#include "fem/plane_stress.hpp"
 #include "fem/structure_data.hpp"
 
 namespace drogue::fem {
@@ -98,8 +99,9 @@ void check_partition(const Inertia& inertia, std::size_t nodes) {
 
 }  // namespace
 
-Structure::Data::Data(HexMesh m, const Material& material, const StructureOptions& o, std::vector<Hold> h)
+Structure::Data::Data(HexMesh m, const Material& law, const StructureOptions& o, std::vector<Hold> h)
     : mesh(std::move(m)),
+      material(law),
       options(checked(o)),
       holds(std::move(h)),
       hold_of_node(hold_of_each_node(holds, mesh.nodes.size())),
@@ -156,18 +158,20 @@ void Structure::Data::compare_masses() {
     partner[p.b] = p.a;
   }
   lightness.clear();
+  thickness_direction.clear();
   for (const auto& element : mesh.elements) {
     const auto joins_pair = [&](const auto& edge) { return partner[element[edge[0]]] == element[edge[1]]; };
     const auto thickness = std::find_if(std::begin(hex_edge), std::end(hex_edge), [&](const auto& edges) {
       return std::all_of(std::begin(edges), std::end(edges), joins_pair);
     });
     const bool thin = thickness != std::end(hex_edge);
+    thickness_direction.push_back(thin ? static_cast<int>(thickness - std::begin(hex_edge)) : -1);
     double smallest = thin ? 2.0 : INFINITY;
     for (const int node : element) {
       smallest = std::min({smallest, ratio[node], thin || partner[node] < 0 ? INFINITY : 1.0});
     }
     lightness.push_back({1.0 / smallest, 1.0 / smallest, 1.0 / smallest});
-    if (thin) lightness.back()[thickness - std::begin(hex_edge)] = 1.0;
+    if (thin) lightness.back()[thickness_direction.back()] = 1.0;
   }
 }
 
@@ -271,6 +275,22 @@ double Structure::mean_thickness_stretch() const {
     ++pairs;
   }
   return pairs == 0 ? 1.0 : sum / pairs;
+}
+
+std::array<double, 2> Structure::plane_stress_comparison() const {
+  double sum = 0.0, squares = 0.0;
+  int elements = 0;
+  for (std::size_t e = 0; e < data_->mesh.elements.size(); ++e) {
+    const int direction = data_->thickness_direction[e];
+    if (direction < 0) continue;
+    const auto [thickness, in_plane] = sheet_stretch(data_->mesh, static_cast<int>(e), direction, data_->x);
+    const double free = plane_stress_thickness(data_->material, in_plane[0], in_plane[1]);
+    sum += free;
+    squares += std::pow(thickness / free - 1.0, 2);
+    ++elements;
+  }
+  if (elements == 0) return {1.0, 0.0};
+  return {sum / elements, std::sqrt(squares / elements)};
 }
 
 }  // namespace drogue::fem

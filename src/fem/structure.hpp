@@ -84,6 +84,9 @@ class Structure {
   /// (thickness change) and in full; zeros without pairs.
   std::array<double, 2> face_velocity_difference() const;
   double mean_thickness_stretch() const;  ///< mean over pairs of current over reference distance; 1 without
+  /// How far a thin solid is from plane stress: mean over its elements of the thickness stretch that would free their
+  /// faces of stress, and the root mean square of the relative difference of the one they have. {1, 0} without pairs.
+  std::array<double, 2> plane_stress_comparison() const;
 
  private:
   struct Data;

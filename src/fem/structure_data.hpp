@@ -32,6 +32,7 @@ struct Structure::Data {
   Data(HexMesh mesh, const Material& material, const StructureOptions& options, std::vector<Hold> holds);
 
   const HexMesh mesh;
+  const Material material;
   const StructureOptions options;
   const std::vector<Hold> holds;
   std::vector<const Hold*> hold_of_node;
@@ -41,6 +42,7 @@ struct Structure::Data {
 
   Inertia inertia;
   std::vector<Point> points;
+  std::vector<int> thickness_direction;          ///< parent direction along which pairs face each other; -1: none
   std::vector<std::array<double, 3>> lightness;  ///< of each element and parent direction: own mass over mass in use
   std::vector<double> stiffness_bounds;          ///< of each element, as deformed [Pa/m^2]
   std::vector<Vec3> hold_impulse;                ///< of each point in the last advance [N s]
