@@ -11,6 +11,7 @@
 #include "app/value.hpp"
 #include "core/error.hpp"
 #include "core/nearest_name.hpp"
+#include "lbm/stream_collide.hpp"
 
 namespace drogue::app {
 
@@ -124,6 +125,13 @@ void check_fluid(const Case& c) {
                     "viscosity, the spacing or fluid.lattice_velocity",
                     c.fluid.viscosity, tau, level, std::ldexp(c.domain.coarsest, -level), 0.5 + smallest_tau_excess,
                     largest_tau));
+  }
+  const double tau = relaxation_time(c, level_of(c.domain.coarsest, c.finest));
+  if (c.fluid.eddy_viscosity != fluid::EddyViscosity::none && tau > lbm::largest_tau_with_eddy_viscosity) {
+    fail(c, "fluid.eddy_viscosity",
+         fmt::format("makes no sense with the relaxation time {:.4g} of the finest level, which resolves the flow; "
+                     "expected at most {}",
+                     tau, lbm::largest_tau_with_eddy_viscosity));
   }
 }
 

@@ -21,6 +21,15 @@ const Choices<fluid::Boundary> boundaries{{"velocity", fluid::Boundary::velocity
                                           {"free_slip", fluid::Boundary::free_slip},
                                           {"no_slip", fluid::Boundary::no_slip},
                                           {"periodic", fluid::Boundary::periodic}};
+const Choices<fluid::Collision> collisions{
+    {"hrr", fluid::Collision::hrr}, {"rr", fluid::Collision::rr}, {"bgk", fluid::Collision::bgk}};
+const Choices<fluid::EddyViscosity> eddy_models{{"none", fluid::EddyViscosity::none},
+                                                {"vreman", fluid::EddyViscosity::vreman},
+                                                {"wale", fluid::EddyViscosity::wale},
+                                                {"smagorinsky", fluid::EddyViscosity::smagorinsky}};
+const Choices<fluid::Storage> storages{{"half_stress", fluid::Storage::half_stress},
+                                       {"float32", fluid::Storage::float32},
+                                       {"float64", fluid::Storage::float64}};
 const Choices<int> axes{{"x", 0}, {"y", 1}, {"z", 2}};
 const Choices<fsi::Scheme> schemes{{"added_mass", fsi::Scheme::added_mass}, {"peskin", fsi::Scheme::peskin}};
 const Choices<ib::Delta> deltas{{"peskin4", ib::Delta::peskin4}, {"peskin3", ib::Delta::peskin3}};
@@ -80,6 +89,47 @@ void read_initial_state(Section& section, Case& c) {
       section.find<Expression>("initial_pressure", {.unit = "Pa", .doc = "gauge, at t = 0; zero if absent"});
 }
 
+double usual_constant(fluid::EddyViscosity model) {
+  switch (model) {
+    case fluid::EddyViscosity::none:
+      return 0.0;
+    case fluid::EddyViscosity::vreman:
+      return 0.07;
+    case fluid::EddyViscosity::wale:
+      return 0.5;
+    case fluid::EddyViscosity::smagorinsky:
+      return 0.17;
+  }
+  return 0.0;
+}
+
+void read_collision(Section& section, fluid::Specification& fluid) {
+  const bool all = section.describing();
+  fluid.collision = section.choose("collision", collisions,
+                                   {.doc = "hybrid recursive regularised, recursive regularised, or single relaxation "
+                                           "time",
+                                    .fallback = "hrr"});
+  if (all || fluid.collision == fluid::Collision::hrr) {
+    fluid.hrr_sigma = section.get<double>("hrr_sigma", {.doc = "share of the regularised stress; the rest is its "
+                                                               "finite-difference estimate, which stabilises",
+                                                        .fallback = 0.98,
+                                                        .range = {.min = 0.0, .max = 1.0}});
+    fluid.eddy_viscosity =
+        section.choose("eddy_viscosity", eddy_models,
+                       {.doc = "model of unresolved turbulence, with collision = \"hrr\"", .fallback = "none"});
+  }
+  if (all || fluid.eddy_viscosity != fluid::EddyViscosity::none) {
+    fluid.eddy_constant =
+        section.get<double>("eddy_constant", {.doc = "of the model; by default 0.07 (vreman), 0.5 (wale), 0.17 "
+                                                     "(smagorinsky)",
+                                              .derived = usual_constant(fluid.eddy_viscosity),
+                                              .range = not_negative});
+  }
+  fluid.storage = section.choose(
+      "storage", storages,
+      {.doc = "of the state: float32 with the stress in 16 bits, all float32, all float64", .fallback = "half_stress"});
+}
+
 void read_fluid(Section section, Case& c) {
   fluid::Specification& fluid = c.fluid;
   c.solver = section.choose<std::string>("solver", {{"lbm", "lbm"}}, {.doc = "lattice Boltzmann", .fallback = "lbm"});
@@ -107,10 +157,7 @@ void read_fluid(Section section, Case& c) {
            "cells that reference_velocity crosses in a time step; sets the step and the Mach number, sqrt(3) times it",
        .fallback = 0.05,
        .range = positive});
-  fluid.hrr_sigma = section.get<double>("hrr_sigma", {.doc = "share of the regularised stress; the rest is its "
-                                                             "finite-difference estimate, which stabilises",
-                                                      .fallback = 0.98,
-                                                      .range = {.min = 0.0, .max = 1.0}});
+  read_collision(section, fluid);
   read_initial_state(section, c);
 }
 

@@ -23,7 +23,7 @@ class Simulation::TimedHook : public fluid::FineStepHook {
 
 Simulation::Simulation(const Case& c, const std::filesystem::path& folder) {
   const std::vector<fem::HexMesh> meshes = load_meshes(c, folder);
-  fluid_ = std::make_unique<lbm::Solver>(make_forest(c, meshes), c.fluid);
+  fluid_ = lbm::make_solver(make_forest(c, meshes), c.fluid);
   bodies_ = make_bodies(c, meshes, fluid_->forest());
   hook_ = std::make_unique<TimedHook>(bodies_);
 }

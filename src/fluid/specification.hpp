@@ -22,12 +22,29 @@ struct Face {
       0.0;  ///< [m] depth of a layer that damps towards the initial velocity and the face's pressure; 0: none
 };
 
+/// How the lattice-Boltzmann fluid relaxes its stress.
+enum class Collision {
+  bgk,  ///< single relaxation time, second-order equilibrium
+  rr,   ///< recursive regularised: third-order terms follow from lower moments
+  hrr,  ///< the same, the stress blended with its finite-difference estimate
+};
+
+/// Model of the turbulence that the grid does not resolve.
+enum class EddyViscosity { none, vreman, wale, smagorinsky };
+
+/// Floating-point types of the state: float32 with 16-bit stresses, all float32, all float64.
+enum class Storage { half_stress, float32, float64 };
+
 struct Specification {
   double density;                  ///< [kg/m^3]
   double viscosity;                ///< kinematic [m^2/s]
   double reference_velocity;       ///< [m/s] the velocity that `lattice_velocity` stands for
   double lattice_velocity = 0.05;  ///< reference velocity in cells per time step, the same on every level
-  double hrr_sigma = 0.98;         ///< share of the projected stress; the rest is finite differences
+  Collision collision = Collision::hrr;
+  double hrr_sigma = 0.98;  ///< share of the projected stress; the rest is finite differences
+  EddyViscosity eddy_viscosity = EddyViscosity::none;
+  double eddy_constant = 0.0;  ///< of the model (lbm/eddy_viscosity.hpp)
+  Storage storage = Storage::half_stress;
   std::array<Face, 6> face;
   std::array<Expression, 3> initial_velocity;  ///< [m/s] functions of x, y, z (t = 0)
   std::optional<Expression> initial_pressure;  ///< gauge [Pa]; zero if absent

@@ -70,20 +70,19 @@ void BoundaryFill<S>::operator()(int level, double time, MomentField<S>& field) 
     for (int i = 0; i < count; ++i) {
       const Item& item = items[i];
       const double rise = specification_.face[item.face].ramp;
-      const float ramp =
-          time < rise ? static_cast<float>(0.5 * (1.0 - std::cos(std::numbers::pi * time / rise))) : 1.0f;
+      const double ramp = time < rise ? 0.5 * (1.0 - std::cos(std::numbers::pi * time / rise)) : 1.0;
       const std::byte* from = field.block(item.source);
       std::byte* to = field.block(item.target);
       const bool high = item.face & 1;
       const int inner = high ? n - 1 : 0, outer = high ? 0 : n - 1;
       for (int line = 0; line < n; ++line) {
         if (item.axis == 0) {
-          const Row r = Layout::load_column(from, inner, line * n, 1);
+          const Row<Real> r = Layout::load_column(from, inner, line * n, 1);
           Layout::store_column(to, outer, line * n, 1, reflect(item, r, line, ramp));
         } else {
           const int inner_row = item.axis == 1 ? line * n + inner : inner * n + line;
           const int outer_row = item.axis == 1 ? line * n + outer : outer * n + line;
-          const Row r = Layout::load_row(from + inner_row * Layout::bytes);
+          const Row<Real> r = Layout::load_row(from + inner_row * Layout::bytes);
           Layout::store_row(to + outer_row * Layout::bytes, reflect(item, r, line, ramp));
         }
       }
@@ -92,9 +91,9 @@ void BoundaryFill<S>::operator()(int level, double time, MomentField<S>& field) 
 }
 
 template <class S>
-Row BoundaryFill<S>::reflect(const Item& item, const Row& inside, int line, float ramp) const {
+auto BoundaryFill<S>::reflect(const Item& item, const Row<Real>& inside, int line, double ramp) const -> Row<Real> {
   const fluid::Face& face = specification_.face[item.face];
-  Row r = inside;
+  Row<Real> r = inside;
   switch (face.type) {
     case fluid::Boundary::free_slip: {
       static constexpr std::array<std::array<Moment, 3>, 3> flipped{{{ux, pxy, pxz}, {uy, pxy, pyz}, {uz, pxz, pyz}}};
@@ -102,16 +101,16 @@ Row BoundaryFill<S>::reflect(const Item& item, const Row& inside, int line, floa
       break;
     }
     case fluid::Boundary::outlet:
-      r.m[drho] = static_cast<float>(2.0 * face.pressure / units_.pressure) - r.m[drho];
+      r.m[drho] = static_cast<Real>(2.0 * face.pressure / units_.pressure) - r.m[drho];
       break;
     case fluid::Boundary::velocity:
     case fluid::Boundary::no_slip:
       if (item.beyond_wall) break;
       for (int a = 0; a < 3; ++a) {
-        const Vec wall = item.table >= 0
-                             ? tables_[item.table][line][a]
-                             : broadcast(static_cast<float>(face.velocity[a](Vec3::Zero(), 0.0) / units_.velocity));
-        r.m[ux + a] = 2.0f * ramp * wall - r.m[ux + a];
+        const Vec<Real> wall =
+            item.table >= 0 ? tables_[item.table][line][a]
+                            : broadcast(static_cast<Real>(face.velocity[a](Vec3::Zero(), 0.0) / units_.velocity));
+        r.m[ux + a] = static_cast<Real>(2.0 * ramp) * wall - r.m[ux + a];
       }
       break;
     case fluid::Boundary::periodic:
@@ -132,7 +131,7 @@ void BoundaryFill<S>::update_table(const Item& item, double time) {
       Vec3 position = forest_.cell_centre(item.target, cell);
       position[item.axis] = item.face & 1 ? domain.upper[item.axis] : domain.lower[item.axis];
       for (int a = 0; a < 3; ++a)
-        tables_[item.table][line][a][lane] = static_cast<float>(face.velocity[a](position, time) / units_.velocity);
+        tables_[item.table][line][a][lane] = static_cast<Real>(face.velocity[a](position, time) / units_.velocity);
     }
 }
 
@@ -140,5 +139,6 @@ void BoundaryFill<S>::update_table(const Item& item, double time) {
 template class BoundaryFill<HalfStress>;
 #endif
 template class BoundaryFill<FloatStress>;
+template class BoundaryFill<DoubleStress>;
 
 }  // namespace drogue::lbm

@@ -38,10 +38,11 @@ class BoundaryFill {
     int table;         // of velocities; -1 where one value does
     bool beyond_wall;  // the source is already the image in another wall
   };
-  using VelocityTable = std::vector<std::array<Vec, 3>>;  // per line of the layer, lattice units
+  using Real = typename S::Real;
+  using VelocityTable = std::vector<std::array<Vec<Real>, 3>>;  // per line of the layer, lattice units
 
   void update_table(const Item& item, double time);
-  Row reflect(const Item& item, const Row& inside, int line, float ramp) const;
+  Row<Real> reflect(const Item& item, const Row<Real>& inside, int line, double ramp) const;
 
   const amr::Forest& forest_;
   const fluid::Specification& specification_;

@@ -5,7 +5,9 @@
 //   g_i = w_i [ drho + 3 c.j + 9/2 cc:A - 3/2 tr A + third order ],  j = rho u,  A = rho u u + (1 - 1/tau) Pneq,
 // whose third order is what D3Q19 can hold isotropically, with recursive coefficients
 //   a_abc = rho u_a u_b u_c + (1 - 1/tau)(u_a Pneq_bc + u_b Pneq_ac + u_c Pneq_ab).
-// References: Malaspinas, arXiv:1505.06900 (2015); Jacob, Malaspinas & Sagaut, J. Turbul. 19 (2018) 1051.
+// Without the third order it is the lattice BGK scheme of the moments that are kept (Latt & Chopard, Math. Comput.
+// Simul. 72 (2006) 165). References: Malaspinas, arXiv:1505.06900 (2015); Jacob, Malaspinas & Sagaut, J. Turbul. 19
+// (2018) 1051.
 #pragma once
 
 #include <array>
@@ -18,8 +20,9 @@ namespace drogue::lbm {
 constexpr bool in_lattice(int cx, int cy, int cz) { return cx * cx + cy * cy + cz * cz <= 2; }
 
 /// What all populations of a cell share: the coefficients of the series, computed once.
-template <class T>
+template <class T, bool third_order = true>
 struct HermiteSeries {
+  using Real = Scalar<T>;
   T base;                     // drho - 3/2 tr A
   std::array<T, 3> normal;    // 9/2 A_aa
   std::array<T, 3> shear;     // 9 A_ab for (y, z), (x, z), (x, y): named by the axis left out
@@ -28,8 +31,8 @@ struct HermiteSeries {
   std::array<T, 3> odd_prev;  // odd part along a in the diagonals of the plane (a, a - 1)
 
   /// `keep` = 1 - 1/tau, the share of Pneq that survives the collision.
-  HermiteSeries(const std::array<T, moments>& m, float keep) {
-    const T rho = 1.0f + m[drho];
+  HermiteSeries(const std::array<T, moments>& m, Real keep) {
+    const T rho = Real(1) + m[drho];
     const std::array<T, 3> u{m[ux], m[uy], m[uz]};
     const std::array<T, 3> j{rho * u[0], rho * u[1], rho * u[2]};
     const std::array<T, 3> p{m[pxx], m[pyy], m[pzz]};
@@ -39,20 +42,23 @@ struct HermiteSeries {
       const int k = (i + 1) % 3, l = (i + 2) % 3;
       const T inertia = j[i] * u[i];
       a[i] = inertia + keep * p[i];
-      b[i] = a[i] - 2.0f * inertia;
+      b[i] = a[i] - Real(2) * inertia;
       off[i] = j[k] * u[l] + keep * s[i];
-      normal[i] = 4.5f * a[i];
-      shear[i] = 9.0f * off[i];
+      normal[i] = Real(4.5) * a[i];
+      shear[i] = Real(9) * off[i];
     }
-    base = m[drho] - 1.5f * (a[0] + a[1] + a[2]);
+    base = m[drho] - Real(1.5) * (a[0] + a[1] + a[2]);
     for (int i = 0; i < 3; ++i) {
-      const int k = (i + 1) % 3, l = (i + 2) % 3;
-      // a_ikk = u_i (A_kk - 2 rho u_k u_k) + 2 u_k A_ik, and the same with l
-      const T a_ikk = u[i] * b[k] + 2.0f * u[k] * off[l];
-      const T a_ill = u[i] * b[l] + 2.0f * u[l] * off[k];
-      axis[i] = 3.0f * j[i] - 9.0f * (a_ikk + a_ill);
-      odd_next[i] = 3.0f * j[i] + 9.0f * a_ikk;
-      odd_prev[i] = 3.0f * j[i] + 9.0f * a_ill;
+      axis[i] = odd_next[i] = odd_prev[i] = Real(3) * j[i];
+      if constexpr (third_order) {
+        const int k = (i + 1) % 3, l = (i + 2) % 3;
+        // a_ikk = u_i (A_kk - 2 rho u_k u_k) + 2 u_k A_ik, and the same with l
+        const T a_ikk = u[i] * b[k] + Real(2) * u[k] * off[l];
+        const T a_ill = u[i] * b[l] + Real(2) * u[l] * off[k];
+        axis[i] -= Real(9) * (a_ikk + a_ill);
+        odd_next[i] += Real(9) * a_ikk;
+        odd_prev[i] += Real(9) * a_ill;
+      }
     }
   }
 
@@ -62,18 +68,18 @@ struct HermiteSeries {
     constexpr std::array<int, 3> c{cx, cy, cz};
     constexpr int nonzero = cx * cx + cy * cy + cz * cz;
     if constexpr (nonzero == 0) {
-      return (1.0f / 3.0f) * base;
+      return (Real(1) / 3) * base;
     } else if constexpr (nonzero == 1) {
       constexpr int i = cx ? 0 : cy ? 1 : 2;
       const T even = base + normal[i];
-      return (1.0f / 18.0f) * (c[i] > 0 ? even + axis[i] : even - axis[i]);
+      return (Real(1) / 18) * (c[i] > 0 ? even + axis[i] : even - axis[i]);
     } else {
       constexpr int out = !cx ? 0 : !cy ? 1 : 2;
       constexpr int i = (out + 1) % 3, k = (out + 2) % 3;
       const T sum = base + normal[i] + normal[k];
       const T even = c[i] * c[k] > 0 ? sum + shear[out] : sum - shear[out];
       const T along_i = c[i] > 0 ? even + odd_next[i] : even - odd_next[i];
-      return (1.0f / 36.0f) * (c[k] > 0 ? along_i + odd_prev[k] : along_i - odd_prev[k]);
+      return (Real(1) / 36) * (c[k] > 0 ? along_i + odd_prev[k] : along_i - odd_prev[k]);
     }
   }
 };
@@ -105,11 +111,11 @@ std::array<T, moments> moments_of(const Populations& f) {
   const T jx = (px - nx) + (xy.along_first + xz.along_first);
   const T jy = (py - ny) + (xy.along_second + yz.along_first);
   const T jz = (pz - nz) + (xz.along_second + yz.along_second);
-  const T per_rho = 1.0f / (1.0f + m[drho]);
+  const T per_rho = Scalar<T>(1) / (Scalar<T>(1) + m[drho]);
   m[ux] = jx * per_rho;
   m[uy] = jy * per_rho;
   m[uz] = jz * per_rho;
-  const T pressure = (1.0f / 3.0f) * m[drho];
+  const T pressure = (Scalar<T>(1) / 3) * m[drho];
   m[pxx] = xx - pressure - jx * m[ux];
   m[pyy] = yy - pressure - jy * m[uy];
   m[pzz] = zz - pressure - jz * m[uz];

@@ -20,15 +20,18 @@ inline constexpr int moments = 10;
 
 enum Moment { drho = 0, ux, uy, uz, pxx, pyy, pzz, pxy, pxz, pyz };
 
+/// Storage types of the state: `Real` of density, velocity and arithmetic, `Element` of the stress.
+
 /// Pneq in 16-bit floats, scaled so that its usual range uses their normal numbers.
 struct HalfStress {
+  using Real = float;
   using Element = std::uint16_t;
   static constexpr float scale = 1024.0f;
 #ifdef __F16C__
-  static Vec load(const Element* p) {
+  static Vec<float> load(const Element* p) {
 #ifdef __AVX512F__
     const __m512 v = _mm512_maskz_cvtph_ps(all, _mm256_load_si256(reinterpret_cast<const __m256i*>(p)));
-    return reinterpret_cast<Vec>(v) * (1.0f / scale);
+    return reinterpret_cast<Vec<float>>(v) * (1.0f / scale);
 #else
     alignas(64) float v[lanes];
     for (int i = 0; i < lanes; i += 8)
@@ -36,7 +39,7 @@ struct HalfStress {
     return lbm::load(v) * (1.0f / scale);
 #endif
   }
-  static void store(Element* p, Vec v) {
+  static void store(Element* p, Vec<float> v) {
     v *= scale;
 #ifdef __AVX512F__
     _mm256_store_si256(reinterpret_cast<__m256i*>(p), _mm512_maskz_cvtps_ph(all, reinterpret_cast<__m512>(v), 0));
@@ -47,7 +50,7 @@ struct HalfStress {
       _mm_store_si128(reinterpret_cast<__m128i*>(p + i), _mm256_cvtps_ph(_mm256_load_ps(f + i), 0));
 #endif
   }
-  static void store_streaming(Element* p, Vec v) {
+  static void store_streaming(Element* p, Vec<float> v) {
 #ifdef __AVX512F__
     _mm256_stream_si256(reinterpret_cast<__m256i*>(p),
                         _mm512_maskz_cvtps_ph(all, reinterpret_cast<__m512>(v * scale), 0));
@@ -60,14 +63,19 @@ struct HalfStress {
 #endif
 };
 
-struct FloatStress {
-  using Element = float;
-  static Vec load(const Element* p) { return lbm::load(p); }
-  static void store(Element* p, Vec v) { lbm::store(p, v); }
-  static void store_streaming(Element* p, Vec v) { lbm::store_streaming(p, v); }
-  static float get(Element e) { return e; }
-  static Element put(float s) { return s; }
+/// Everything in one floating-point type.
+template <class T>
+struct PlainStress {
+  using Real = T;
+  using Element = T;
+  static Vec<T> load(const T* p) { return lbm::load(p); }
+  static void store(T* p, Vec<T> v) { lbm::store(p, v); }
+  static void store_streaming(T* p, Vec<T> v) { lbm::store_streaming(p, v); }
+  static T get(T e) { return e; }
+  static T put(T s) { return s; }
 };
+using FloatStress = PlainStress<float>;
+using DoubleStress = PlainStress<double>;
 
 #ifdef __F16C__
 using DefaultStress = HalfStress;
@@ -76,81 +84,103 @@ using DefaultStress = FloatStress;
 #endif
 
 /// The ten moments of a row of 16 cells (or of 16 cells of a column) in registers.
+template <class Real>
 struct Row {
-  std::array<Vec, moments> m;
+  std::array<Vec<Real>, moments> m;
 };
 
-/// Addresses inside the bytes of one row. S is the storage of Pneq.
+/// Addresses inside the bytes of one row. S is the storage.
 template <class S>
 struct RowLayout {
-  static constexpr std::size_t float_bytes = 4 * lanes * sizeof(float);
-  static constexpr std::size_t bytes = float_bytes + 6 * lanes * sizeof(typename S::Element);
+  using Real = typename S::Real;
+  static constexpr std::size_t macro_bytes = 4 * lanes * sizeof(Real);
+  static constexpr std::size_t bytes = macro_bytes + 6 * lanes * sizeof(typename S::Element);
   static constexpr std::size_t block_bytes = rows_per_block * bytes;
 
-  static const float* macro(const std::byte* row, int m) { return reinterpret_cast<const float*>(row) + m * lanes; }
-  static float* macro(std::byte* row, int m) { return reinterpret_cast<float*>(row) + m * lanes; }
+  static const Real* macro(const std::byte* row, int m) { return reinterpret_cast<const Real*>(row) + m * lanes; }
+  static Real* macro(std::byte* row, int m) { return reinterpret_cast<Real*>(row) + m * lanes; }
   static const typename S::Element* stress(const std::byte* row, int m) {
-    return reinterpret_cast<const typename S::Element*>(row + float_bytes) + (m - 4) * lanes;
+    return reinterpret_cast<const typename S::Element*>(row + macro_bytes) + (m - 4) * lanes;
   }
   static typename S::Element* stress(std::byte* row, int m) {
-    return reinterpret_cast<typename S::Element*>(row + float_bytes) + (m - 4) * lanes;
+    return reinterpret_cast<typename S::Element*>(row + macro_bytes) + (m - 4) * lanes;
   }
 
-  static Vec load(const std::byte* row, int m) { return m < 4 ? lbm::load(macro(row, m)) : S::load(stress(row, m)); }
-  static void store(std::byte* row, int m, Vec v) {
+  static Vec<Real> load(const std::byte* row, int m) {
+    return m < 4 ? lbm::load(macro(row, m)) : S::load(stress(row, m));
+  }
+  static void store(std::byte* row, int m, Vec<Real> v) {
     if (m < 4)
       lbm::store(macro(row, m), v);
     else
       S::store(stress(row, m), v);
   }
-  static float get(const std::byte* row, int m, int x) { return m < 4 ? macro(row, m)[x] : S::get(stress(row, m)[x]); }
-  static void put(std::byte* row, int m, int x, float value) {
+  static Real get(const std::byte* row, int m, int x) { return m < 4 ? macro(row, m)[x] : S::get(stress(row, m)[x]); }
+  static void put(std::byte* row, int m, int x, Real value) {
     if (m < 4)
       macro(row, m)[x] = value;
     else
       stress(row, m)[x] = S::put(value);
   }
 
-  static Row load_row(const std::byte* row) {
-    Row r;
+  static Row<Real> load_row(const std::byte* row) {
+    Row<Real> r;
     for (int m = 0; m < moments; ++m) r.m[m] = load(row, m);
     return r;
   }
-  /// Cells (x, first_row + i * row_stride), i = 0..15, of a block: a column along y (stride 1) or z (stride 16).
-  static Row load_column(const std::byte* block, int x, int first_row, int row_stride) {
-    alignas(64) float value[moments][lanes];
+  static void store_row(std::byte* row, const Row<Real>& r) {
+    for (int m = 0; m < moments; ++m) store(row, m, r.m[m]);
+  }
+  static void store_row_streaming(std::byte* row, const Row<Real>& r) {
+    for (int m = 0; m < 4; ++m) lbm::store_streaming(macro(row, m), r.m[m]);
+    for (int m = 4; m < moments; ++m) S::store_streaming(stress(row, m), r.m[m]);
+  }
+  /// Element `x` of the rows `first_row` + i * `row_stride`, i = 0..15: a column of a block along y (stride 1) or z
+  /// (16).
+  static Row<Real> load_column(const std::byte* rows, int x, int first_row, int row_stride) {
+    alignas(128) Real value[moments][lanes];
     for (int i = 0; i < lanes; ++i) {
-      const std::byte* row = block + (first_row + i * row_stride) * bytes;
+      const std::byte* row = rows + (first_row + i * row_stride) * bytes;
       for (int m = 0; m < moments; ++m) value[m][i] = get(row, m, x);
     }
-    Row column;
+    Row<Real> column;
     for (int m = 0; m < moments; ++m) column.m[m] = lbm::load(value[m]);
     return column;
   }
-  static void store_column(std::byte* block, int x, int first_row, int row_stride, const Row& column) {
+  static void store_column(std::byte* rows, int x, int first_row, int row_stride, const Row<Real>& column) {
     for (int i = 0; i < lanes; ++i)
-      for (int m = 0; m < moments; ++m) put(block + (first_row + i * row_stride) * bytes, m, x, column.m[m][i]);
-  }
-  static void store_row(std::byte* row, const Row& r) {
-    for (int m = 0; m < moments; ++m) store(row, m, r.m[m]);
+      for (int m = 0; m < moments; ++m) put(rows + (first_row + i * row_stride) * bytes, m, x, column.m[m][i]);
   }
 };
 
-/// Moments of all blocks of a forest at one time level.
+/// Moments of all blocks of a forest at one time level. Of its leaves it keeps the cells at the two x faces once more,
+/// as columns along y, [x face][z][moment][y]: a neighbour that needs them would else touch every cache line of the
+/// block, because a row lies along x. Who changes such a cell of a leaf calls refresh_columns().
 template <class S>
 class MomentField {
  public:
   using Layout = RowLayout<S>;
+  static constexpr std::size_t column_bytes = 2 * amr::block_size * Layout::bytes;
 
-  explicit MomentField(int blocks) : bytes_(blocks * Layout::block_bytes) {}
+  explicit MomentField(int blocks) : rows_(blocks * Layout::block_bytes), columns_(blocks * column_bytes) {}
 
-  std::byte* block(int id) { return bytes_.data() + id * Layout::block_bytes; }
-  const std::byte* block(int id) const { return bytes_.data() + id * Layout::block_bytes; }
+  std::byte* block(int id) { return rows_.data() + id * Layout::block_bytes; }
+  const std::byte* block(int id) const { return rows_.data() + id * Layout::block_bytes; }
   std::byte* row(int id, int y, int z) { return block(id) + (z * amr::block_size + y) * Layout::bytes; }
   const std::byte* row(int id, int y, int z) const { return block(id) + (z * amr::block_size + y) * Layout::bytes; }
+  std::byte* columns(int id) { return columns_.data() + id * column_bytes; }
+  const std::byte* columns(int id) const { return columns_.data() + id * column_bytes; }
+
+  void refresh_columns(int id) {
+    for (int side = 0; side < 2; ++side)
+      for (int z = 0; z < amr::block_size; ++z) {
+        const auto column = Layout::load_column(block(id), side * (lanes - 1), z * amr::block_size, 1);
+        Layout::store_row(columns(id) + (side * amr::block_size + z) * Layout::bytes, column);
+      }
+  }
 
  private:
-  HugeArray bytes_;
+  HugeArray rows_, columns_;
 };
 
 }  // namespace drogue::lbm

@@ -18,7 +18,7 @@ struct Axis {
   static constexpr int most_taps = 5;
   int begin, end, taps;
   std::array<int, amr::block_size> start;
-  std::array<std::array<float, most_taps>, amr::block_size> weight;
+  std::array<std::array<double, most_taps>, amr::block_size> weight;
 
   int outputs() const { return end - begin; }
   int first_input() const;
@@ -53,7 +53,7 @@ struct SourceFields {
 
 /// Runs one job; the stress is multiplied by `stress_factor` (it scales with tau and the time step).
 template <class S>
-void resample(const ResampleJob& job, const amr::Forest& forest, const SourceFields<S>& source, float stress_factor,
+void resample(const ResampleJob& job, const amr::Forest& forest, const SourceFields<S>& source, double stress_factor,
               MomentField<S>& target);
 
 }  // namespace drogue::lbm

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// One row of a block in one vector: 16 floats, an AVX-512 register. Elsewhere the compiler splits it into what there
-// is.
+// One row of a block in one vector: 16 floats, an AVX-512 register, or 16 doubles, two of them. Elsewhere the compiler
+// splits it into what there is.
 #pragma once
 
+#include <cmath>
 #include <cstdint>
 #include <cstring>
+#include <type_traits>
 
 #if defined(__AVX512F__) || defined(__F16C__)
 #include <immintrin.h>
@@ -13,8 +15,40 @@
 namespace drogue::lbm {
 
 inline constexpr int lanes = 16;
-using Vec = float __attribute__((vector_size(64)));
-using Ivec = std::int32_t __attribute__((vector_size(64)));
+
+template <class Real>
+struct Pack;
+template <>
+struct Pack<float> {
+  using Type = float __attribute__((vector_size(4 * lanes)));
+  using Index = std::int32_t __attribute__((vector_size(4 * lanes)));
+};
+template <>
+struct Pack<double> {
+  using Type = double __attribute__((vector_size(8 * lanes)));
+  using Index = std::int64_t __attribute__((vector_size(8 * lanes)));
+};
+template <class Real>
+using Vec = typename Pack<Real>::Type;
+/// As many integers, for lane numbers and the results of comparisons.
+template <class Real>
+using IndexVec = typename Pack<Real>::Index;
+
+/// The number type behind a number or a vector.
+template <class T>
+struct ScalarOf {
+  using Type = T;
+};
+template <>
+struct ScalarOf<Vec<float>> {
+  using Type = float;
+};
+template <>
+struct ScalarOf<Vec<double>> {
+  using Type = double;
+};
+template <class T>
+using Scalar = typename ScalarOf<T>::Type;
 
 // The zero-masking forms of the intrinsics with a full mask compile to the plain instruction; the plain forms raise
 // false warnings of uninitialised use (GCC bug 105593).
@@ -22,55 +56,90 @@ using Ivec = std::int32_t __attribute__((vector_size(64)));
 inline constexpr __mmask16 all = 0xffff;
 #endif
 
-inline Vec load(const float* p) { return *reinterpret_cast<const Vec*>(p); }
-inline void store(float* p, Vec v) { *reinterpret_cast<Vec*>(p) = v; }
+template <class Real>
+Vec<Real> load(const Real* p) {
+  return *reinterpret_cast<const Vec<Real>*>(p);
+}
+template <class Real>
+void store(Real* p, Vec<Real> v) {
+  *reinterpret_cast<Vec<Real>*>(p) = v;
+}
 
-inline Vec load_unaligned(const float* p) {
-  Vec v;
+template <class Real>
+Vec<Real> load_unaligned(const Real* p) {
+  Vec<Real> v;
   std::memcpy(&v, p, sizeof v);
   return v;
 }
-inline void store_unaligned(float* p, Vec v) { std::memcpy(p, &v, sizeof v); }
+template <class Real>
+void store_unaligned(Real* p, Vec<Real> v) {
+  std::memcpy(p, &v, sizeof v);
+}
 
-inline Vec broadcast(float s) { return Vec{} + s; }
+template <class Real>
+Vec<Real> broadcast(Real s) {
+  return Vec<Real>{} + s;
+}
 
 /// Lane i takes lane i - 1; lane 0 takes `first`.
-inline Vec shift_up(Vec v, float first) {
+template <class Real>
+Vec<Real> shift_up(Vec<Real> v, Real first) {
 #ifdef __AVX512F__
-  const __m512i carried = _mm512_castps_si512(_mm512_set1_ps(first));
-  return reinterpret_cast<Vec>(
-      _mm512_maskz_alignr_epi32(all, _mm512_castps_si512(reinterpret_cast<__m512>(v)), carried, 15));
-#else
-  alignas(64) float row[lanes + 1];
+  if constexpr (std::is_same_v<Real, float>) {
+    const __m512i carried = _mm512_castps_si512(_mm512_set1_ps(first));
+    return reinterpret_cast<Vec<Real>>(
+        _mm512_maskz_alignr_epi32(all, _mm512_castps_si512(reinterpret_cast<__m512>(v)), carried, 15));
+  }
+#endif
+  alignas(sizeof v) Real row[lanes + 1];
   row[0] = first;
   store_unaligned(row + 1, v);
   return load(row);
-#endif
 }
 
 /// Lane i takes lane i + 1; the last lane takes `last`.
-inline Vec shift_down(Vec v, float last) {
+template <class Real>
+Vec<Real> shift_down(Vec<Real> v, Real last) {
 #ifdef __AVX512F__
-  const __m512i carried = _mm512_castps_si512(_mm512_set1_ps(last));
-  return reinterpret_cast<Vec>(
-      _mm512_maskz_alignr_epi32(all, carried, _mm512_castps_si512(reinterpret_cast<__m512>(v)), 1));
-#else
-  alignas(64) float row[lanes + 1];
+  if constexpr (std::is_same_v<Real, float>) {
+    const __m512i carried = _mm512_castps_si512(_mm512_set1_ps(last));
+    return reinterpret_cast<Vec<Real>>(
+        _mm512_maskz_alignr_epi32(all, carried, _mm512_castps_si512(reinterpret_cast<__m512>(v)), 1));
+  }
+#endif
+  alignas(sizeof v) Real row[lanes + 1];
   store(row, v);
   row[lanes] = last;
   return load_unaligned(row + 1);
-#endif
 }
 
 /// Past the caches: the data will not be read again before it has been evicted.
-inline void store_streaming(float* p, Vec v) {
+template <class Real>
+void store_streaming(Real* p, Vec<Real> v) {
 #ifdef __AVX512F__
-  _mm512_stream_ps(p, reinterpret_cast<__m512>(v));
+  if constexpr (std::is_same_v<Real, float>) {
+    _mm512_stream_ps(p, reinterpret_cast<__m512>(v));
+  } else {
+    const auto* half = reinterpret_cast<const __m512d*>(&v);
+    _mm512_stream_pd(p, half[0]);
+    _mm512_stream_pd(p + lanes / 2, half[1]);
+  }
 #else
   store(p, v);
 #endif
 }
 
-inline Vec maximum(Vec a, Vec b) { return a > b ? a : b; }
+template <class V>
+V maximum(V a, V b) {
+  return a > b ? a : b;
+}
+
+inline float square_root(float s) { return std::sqrt(s); }
+inline double square_root(double s) { return std::sqrt(s); }
+template <class V>
+V square_root(V v) {
+  for (int i = 0; i < lanes; ++i) v[i] = std::sqrt(v[i]);
+  return v;
+}
 
 }  // namespace drogue::lbm

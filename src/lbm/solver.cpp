@@ -18,6 +18,13 @@ Units units_of(const fluid::Specification& s) {
   return {velocity, s.density * velocity * velocity * sound_speed_squared};
 }
 
+double relaxation_time(double lattice_viscosity) { return 0.5 + lattice_viscosity / sound_speed_squared; }
+
+double eddy_factor(const fluid::Specification& s) {
+  const bool linear = s.eddy_viscosity == fluid::EddyViscosity::vreman;
+  return linear ? s.eddy_constant : s.eddy_constant * s.eddy_constant;
+}
+
 }  // namespace
 
 template <class S>
@@ -27,24 +34,21 @@ BasicSolver<S>::BasicSolver(amr::Forest forest, fluid::Specification specificati
       units_(units_of(specification_)),
       field_{MomentField<S>(forest_.size()), MomentField<S>(forest_.size())},
       fill_boundary_(forest_, specification_, units_),
-      force_(forest_) {
+      force_(forest_),
+      fine_velocity_(forest_),
+      update_(block_update<S>(specification_.collision, specification_.eddy_viscosity)) {
   levels_.resize(forest_.levels());
   for (int level = 0; level < forest_.levels(); ++level) {
     Level& l = levels_[level];
     const double dx = forest_.spacing(level);
     l.dt = dx / units_.velocity;
-    l.relaxation = Relaxation::of_viscosity(specification_.viscosity * l.dt / (dx * dx), specification_.hrr_sigma);
+    l.relaxation = {relaxation_time(specification_.viscosity * l.dt / (dx * dx)), specification_.hrr_sigma,
+                    eddy_factor(specification_)};
     if (level > 0) l.from_coarser = plan_interpolation(forest_, level);
     if (level < forest_.finest()) l.to_parents = plan_restriction(forest_, level);
     build_sponge(level);
   }
   initialise();
-  const auto finest = forest_.range(forest_.finest(), amr::Kind::leaf);
-  for (int f = 0; f < 2; ++f) {
-    velocity_base_[f].assign(forest_.size(), nullptr);
-    for (int id = finest.begin; id < finest.end; ++id)
-      velocity_base_[f][id] = RowLayout<S>::macro(std::as_const(field_[f]).block(id), ux);
-  }
 }
 
 template <class S>
@@ -75,23 +79,15 @@ void BasicSolver<S>::advance(int level, fluid::FineStepHook* hook) {
 template <class S>
 void BasicSolver<S>::stream_and_collide(int level) {
   const Level& l = levels_[level];
-  const MomentField<S>& from = field_[l.now];
-  MomentField<S>& to = field_[1 - l.now];
   const auto leaves = forest_.range(level, amr::Kind::leaf);
   float max_speed_squared = 0.0f;
   bool diverged = false;
-  const auto around = [&](int id) {
-    BlockNeighbourhood<S> blocks;
-    for (int slot = 0; slot < 27; ++slot) blocks.source[slot] = from.block(forest_.block(id).neighbour[slot]);
-    blocks.target = to.block(id);
-    return blocks;
-  };
 #pragma omp parallel for schedule(static) reduction(max : max_speed_squared) reduction(|| : diverged)
   for (int id = leaves.begin; id < leaves.end; ++id) {
-    BlockNeighbourhood<S> blocks = around(id);
-    const BlockNeighbourhood<S> next = around(std::min(id + 1, leaves.end - 1));
+    BlockNeighbourhood<S> blocks = neighbourhood(id, l.now);
+    const BlockNeighbourhood<S> next = neighbourhood(std::min(id + 1, leaves.end - 1), l.now);
     blocks.next = &next;
-    const BlockRecord record = stream_collide(blocks, l.relaxation);
+    const BlockRecord record = update_(blocks, l.relaxation);
     max_speed_squared = std::max(max_speed_squared, record.max_speed_squared);
     diverged = diverged || record.diverged;
   }
@@ -103,17 +99,34 @@ void BasicSolver<S>::stream_and_collide(int level) {
 }
 
 template <class S>
+BlockNeighbourhood<S> BasicSolver<S>::neighbourhood(int block, int from) {
+  BlockNeighbourhood<S> blocks;
+  for (int slot = 0; slot < 27; ++slot) {
+    const int id = forest_.block(block).neighbour[slot];
+    blocks.source[slot] = field_[from].block(id);
+    blocks.columns[slot] = forest_.block(id).kind == amr::Kind::leaf ? field_[from].columns(id) : nullptr;
+  }
+  blocks.target = field_[1 - from].block(block);
+  blocks.target_columns = field_[1 - from].columns(block);
+  return blocks;
+}
+
+template <class S>
 void BasicSolver<S>::apply_sponge(int level) {
   const Level& l = levels_[level];
+  MomentField<S>& field = field_[1 - l.now];
   const int count = static_cast<int>(l.sponge.size());
 #pragma omp parallel for schedule(static)
   for (int i = 0; i < count; ++i) {
-    const SpongeCell& s = l.sponge[i];
-    std::byte* row = field_[1 - l.now].row(s.block, s.cell[1], s.cell[2]);
-    for (const Moment m : {drho, ux, uy, uz}) {
-      float& value = RowLayout<S>::macro(row, m)[s.cell[0]];
-      value += s.damping * (s.rest[m] - value);
+    const SpongeBlock& sponge = l.sponge[i];
+    for (const SpongeCell& s : sponge.cells) {
+      std::byte* row = field.row(sponge.block, s.cell[1], s.cell[2]);
+      for (const Moment m : {drho, ux, uy, uz}) {
+        Real& value = RowLayout<S>::macro(row, m)[s.cell[0]];
+        value += s.damping * (s.rest[m] - value);
+      }
     }
+    field.refresh_columns(sponge.block);
   }
 }
 
@@ -124,7 +137,7 @@ void BasicSolver<S>::interpolate_rims(int level, bool midway) {
   const Level &fine = levels_[level], &coarse = levels_[level - 1];
   const MomentField<S>&start = field_[coarse.now], &end = field_[1 - coarse.now];
   const SourceFields<S> source{start, midway ? &end : nullptr, midway ? end : start};
-  const float factor = stress_ratio(level - 1, level);
+  const double factor = stress_ratio(level - 1, level);
   const int targets = static_cast<int>(fine.from_coarser.first.size()) - 1;
 #pragma omp parallel for schedule(dynamic, 4)
   for (int i = 0; i < targets; ++i)
@@ -137,7 +150,7 @@ void BasicSolver<S>::restrict_to_parents(int level, int field) {
   const Level &coarse = levels_[level], &fine = levels_[level + 1];
   const MomentField<S>& from = field_[fine.now];
   const SourceFields<S> source{from, nullptr, from};
-  const float factor = stress_ratio(level + 1, level);
+  const double factor = stress_ratio(level + 1, level);
   const int targets = static_cast<int>(coarse.to_parents.first.size()) - 1;
 #pragma omp parallel for schedule(dynamic, 1)
   for (int i = 0; i < targets; ++i)
@@ -147,8 +160,8 @@ void BasicSolver<S>::restrict_to_parents(int level, int field) {
 
 /// Pneq = -2 rho c_s^2 tau S dt: per step of each level, so it scales with tau dt.
 template <class S>
-float BasicSolver<S>::stress_ratio(int from, int to) const {
-  return static_cast<float>(tau(to) * levels_[to].dt / (tau(from) * levels_[from].dt));
+double BasicSolver<S>::stress_ratio(int from, int to) const {
+  return tau(to) * levels_[to].dt / (tau(from) * levels_[from].dt);
 }
 
 template <class S>
@@ -156,12 +169,12 @@ void BasicSolver<S>::couple(fluid::FineStepHook& hook) {
   using Layout = RowLayout<S>;
   const Level& l = levels_.back();
   const int field = 1 - l.now;
-  const fluid::VelocityView u_star = velocity_view(field);
+  const fluid::VelocityView u_star = fine_velocity_.view(field_[field], units_.velocity);
   force_.clear();
   const double kappa = l.dt / specification_.density;
   fluid::FineStep fine_step{l.time + l.dt, l.dt, u_star, force_, kappa};
   hook.on_fine_step(fine_step);
-  const float lattice_kappa = static_cast<float>(kappa / units_.velocity);
+  const Real lattice_kappa = static_cast<Real>(kappa / units_.velocity);
   const auto opened = force_.opened();
   const int count = static_cast<int>(opened.size());
 #pragma omp parallel for schedule(static)
@@ -170,18 +183,18 @@ void BasicSolver<S>::couple(fluid::FineStepHook& hook) {
     for (int r = 0; r < rows_per_block; ++r) {
       std::byte* row = field_[field].block(opened[i]) + r * Layout::bytes;
       for (int a = 0; a < 3; ++a) {
-        float* u = Layout::macro(row, ux + a);
+        Real* u = Layout::macro(row, ux + a);
         const float* along = f + r * fluid::ForceField::stride_y + a * fluid::ForceField::stride_component;
-        store(u, load(u) + lattice_kappa * load_unaligned(along));
+        store(u, load(u) + lattice_kappa * __builtin_convertvector(load_unaligned(along), Vec<Real>));
       }
     }
+    field_[field].refresh_columns(opened[i]);
   }
 }
 
 template <class S>
-fluid::VelocityView BasicSolver<S>::velocity_view(int field) const {
-  constexpr std::ptrdiff_t row = RowLayout<S>::bytes / sizeof(float);
-  return {&forest_, velocity_base_[field].data(), lanes, row, n * row, static_cast<float>(units_.velocity)};
+fluid::VelocityView BasicSolver<S>::fine_velocity() const {
+  return fine_velocity_.view(field_[levels_.back().now], units_.velocity);
 }
 
 template <class S>
@@ -193,15 +206,15 @@ void BasicSolver<S>::report_divergence(int level) const {
     for (int cell = 0; cell < amr::block_cells; ++cell) {
       const Index3 at = amr::cell_at(cell);
       const std::byte* row = field_[1 - l.now].row(id, at[1], at[2]);
-      float speed = 0.0f;
+      Real speed = 0;
       for (const Moment m : {ux, uy, uz}) speed += Layout::get(row, m, at[0]) * Layout::get(row, m, at[0]);
       speed = std::sqrt(speed);
-      const float density = Layout::get(row, drho, at[0]);
+      const Real density = Layout::get(row, drho, at[0]);
       if (speed < speed_limit && std::abs(density) < density_limit) continue;
       throw Diverged(std::string("the fluid diverged: ") +
                          (std::isfinite(speed) && std::isfinite(density)
                               ? "speed " + std::to_string(speed * units_.velocity) + " m/s, density off by " +
-                                    std::to_string(100.0f * density) + " %"
+                                    std::to_string(100 * density) + " %"
                               : "not a number"),
                      l.time + l.dt, level, id, at, forest_.cell_centre(id, at));
     }
@@ -233,12 +246,13 @@ void BasicSolver<S>::read_block(int block, fluid::BlockFields& fields) const {
     }
     return;
   }
-  const float velocity = static_cast<float>(units_.velocity), pressure = static_cast<float>(units_.pressure);
+  const Real velocity = static_cast<Real>(units_.velocity), pressure = static_cast<Real>(units_.pressure);
   for (int r = 0; r < rows_per_block; ++r) {
     const std::byte* row = field_[levels_[b.level].now].block(block) + r * Layout::bytes;
     for (int x = 0; x < n; ++x) {
-      fields.pressure[r * n + x] = pressure * Layout::macro(row, drho)[x];
-      for (int a = 0; a < 3; ++a) fields.velocity[a][r * n + x] = velocity * Layout::macro(row, ux + a)[x];
+      fields.pressure[r * n + x] = static_cast<float>(pressure * Layout::macro(row, drho)[x]);
+      for (int a = 0; a < 3; ++a)
+        fields.velocity[a][r * n + x] = static_cast<float>(velocity * Layout::macro(row, ux + a)[x]);
     }
   }
 }
@@ -272,9 +286,22 @@ std::array<double, 4> BasicSolver<S>::mass_and_momentum() const {
   return total;
 }
 
+std::unique_ptr<fluid::FluidSolver> make_solver(amr::Forest forest, const fluid::Specification& specification) {
+  switch (specification.storage) {
+    case fluid::Storage::half_stress:
+      return std::make_unique<BasicSolver<DefaultStress>>(std::move(forest), specification);
+    case fluid::Storage::float32:
+      return std::make_unique<BasicSolver<FloatStress>>(std::move(forest), specification);
+    case fluid::Storage::float64:
+      return std::make_unique<BasicSolver<DoubleStress>>(std::move(forest), specification);
+  }
+  return nullptr;
+}
+
 #ifdef __F16C__
 template class BasicSolver<HalfStress>;
 #endif
 template class BasicSolver<FloatStress>;
+template class BasicSolver<DoubleStress>;
 
 }  // namespace drogue::lbm

@@ -13,12 +13,13 @@
 #include "fluid/fluid_solver.hpp"
 #include "fluid/specification.hpp"
 #include "lbm/boundary.hpp"
+#include "lbm/fine_velocity.hpp"
 #include "lbm/level_transfer.hpp"
 #include "lbm/stream_collide.hpp"
 
 namespace drogue::lbm {
 
-/// S is the storage of the non-equilibrium stress: HalfStress or FloatStress.
+/// S is the storage of the state: HalfStress, FloatStress or DoubleStress.
 template <class S>
 class BasicSolver : public fluid::FluidSolver {
  public:
@@ -33,7 +34,7 @@ class BasicSolver : public fluid::FluidSolver {
   double coarse_dt() const override { return levels_.front().dt; }
   double fine_dt() const override { return levels_.back().dt; }
   const fluid::FluidStatistics& statistics() const override { return statistics_; }
-  fluid::VelocityView fine_velocity() const override { return velocity_view(levels_.back().now); }
+  fluid::VelocityView fine_velocity() const override;
   void read_block(int block, fluid::BlockFields& fields) const override;
   std::array<double, 4> mass_and_momentum() const override;
 
@@ -41,11 +42,15 @@ class BasicSolver : public fluid::FluidSolver {
   double tau(int level) const { return levels_[level].relaxation.tau; }
 
  private:
+  using Real = typename S::Real;
   struct SpongeCell {
-    int block;
     Index3 cell;
-    float damping;              // share of the deviation taken per step
-    std::array<float, 4> rest;  // drho and u that it damps towards
+    Real damping;              // share of the deviation taken per step
+    std::array<Real, 4> rest;  // drho and u that it damps towards
+  };
+  struct SpongeBlock {
+    int block;
+    std::vector<SpongeCell> cells;
   };
   struct Level {
     double dt;          // [s]
@@ -53,7 +58,7 @@ class BasicSolver : public fluid::FluidSolver {
     int now = 0;        // which of the two fields holds the level's present
     Relaxation relaxation;
     TransferPlan from_coarser, to_parents;
-    std::vector<SpongeCell> sponge;
+    std::vector<SpongeBlock> sponge;
   };
 
   void initialise();
@@ -66,8 +71,8 @@ class BasicSolver : public fluid::FluidSolver {
   void apply_sponge(int level);
   void couple(fluid::FineStepHook& hook);
   [[noreturn]] void report_divergence(int level) const;
-  fluid::VelocityView velocity_view(int field) const;
-  float stress_ratio(int from, int to) const;
+  BlockNeighbourhood<S> neighbourhood(int block, int from);
+  double stress_ratio(int from, int to) const;
 
   amr::Forest forest_;
   fluid::Specification specification_;
@@ -76,10 +81,14 @@ class BasicSolver : public fluid::FluidSolver {
   std::array<MomentField<S>, 2> field_;
   BoundaryFill<S> fill_boundary_;
   fluid::ForceField force_;
-  std::array<std::vector<const float*>, 2> velocity_base_;  // per field and block, for the views
+  mutable FineVelocity<S> fine_velocity_;  // a cache
+  BlockUpdate<S> update_;
   fluid::FluidStatistics statistics_;
 };
 
 using Solver = BasicSolver<DefaultStress>;
+
+/// A solver with the storage that the specification asks for (float32 stresses where the processor has no 16-bit ones).
+std::unique_ptr<fluid::FluidSolver> make_solver(amr::Forest forest, const fluid::Specification& specification);
 
 }  // namespace drogue::lbm

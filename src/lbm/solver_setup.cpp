@@ -2,6 +2,7 @@
 // What the solver does once: the initial state and the sponge layers.
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "lbm/solver.hpp"
 
@@ -9,22 +10,22 @@ namespace drogue::lbm {
 namespace {
 
 /// Initial moments of one cell: Pneq = -2/3 rho tau S from central differences of the given velocity.
-std::array<float, moments> initial_moments(const fluid::Specification& s, const Vec3& x, double dx, double tau,
-                                           const Units& units) {
-  std::array<float, moments> m{};
-  if (s.initial_pressure) m[drho] = static_cast<float>((*s.initial_pressure)(x, 0.0) / units.pressure);
+std::array<double, moments> initial_moments(const fluid::Specification& s, const Vec3& x, double dx, double tau,
+                                            const Units& units) {
+  std::array<double, moments> m{};
+  if (s.initial_pressure) m[drho] = (*s.initial_pressure)(x, 0.0) / units.pressure;
   Mat3 gradient = Mat3::Zero();  // [component][along], lattice units
   for (int a = 0; a < 3; ++a) {
     const Expression& u = s.initial_velocity[a];
-    m[ux + a] = static_cast<float>(u(x, 0.0) / units.velocity);
+    m[ux + a] = u(x, 0.0) / units.velocity;
     for (int b = 0; b < 3 && !u.is_constant(); ++b)
       gradient(a, b) = (u(x + dx * Vec3::Unit(b), 0.0) - u(x - dx * Vec3::Unit(b), 0.0)) / (2.0 * units.velocity);
   }
   const Mat3 stress = -(1.0 + m[drho]) * tau / 3.0 * (gradient + gradient.transpose());
-  for (int a = 0; a < 3; ++a) m[pxx + a] = static_cast<float>(stress(a, a));
-  m[pxy] = static_cast<float>(stress(0, 1));
-  m[pxz] = static_cast<float>(stress(0, 2));
-  m[pyz] = static_cast<float>(stress(1, 2));
+  for (int a = 0; a < 3; ++a) m[pxx + a] = stress(a, a);
+  m[pxy] = stress(0, 1);
+  m[pxz] = stress(0, 2);
+  m[pyz] = stress(1, 2);
   return m;
 }
 
@@ -55,15 +56,17 @@ void BasicSolver<S>::initialise_block(int block, const fluid::Specification& spe
   const bool uniform = std::all_of(specification.initial_velocity.begin(), specification.initial_velocity.end(),
                                    [](const Expression& e) { return e.is_constant(); }) &&
                        (!specification.initial_pressure || specification.initial_pressure->is_constant());
-  std::array<float, moments> m;
+  std::array<double, moments> m;
   for (int cell = 0; cell < amr::block_cells; ++cell) {
     const Index3 at = amr::cell_at(cell);
     if (cell == 0 || !uniform)
       m = initial_moments(specification, forest_.cell_centre(block, at), forest_.spacing(level),
                           levels_[level].relaxation.tau, units_);
     for (auto& field : field_)
-      for (int i = 0; i < moments; ++i) Layout::put(field.row(block, at[1], at[2]), i, at[0], m[i]);
+      for (int i = 0; i < moments; ++i) Layout::put(field.row(block, at[1], at[2]), i, at[0], static_cast<Real>(m[i]));
   }
+  if (forest_.block(block).kind == amr::Kind::leaf)
+    for (auto& field : field_) field.refresh_columns(block);
 }
 
 /// Damping that grows with the square of the depth and takes e^-3 of a sound wave on its way through the layer; where
@@ -74,9 +77,10 @@ void BasicSolver<S>::build_sponge(int level) {
   const auto leaves = forest_.range(level, amr::Kind::leaf);
   const Box& domain = forest_.domain().box;
   const double sound_speed = units_.velocity / std::sqrt(3.0);
-  for (int id = leaves.begin; id < leaves.end; ++id)
+  for (int id = leaves.begin; id < leaves.end; ++id) {
+    SpongeBlock sponge{id, {}};
     for (int i = 0; i < amr::block_cells; ++i) {
-      SpongeCell s{id, amr::cell_at(i), 0.0f, {}};
+      SpongeCell s{amr::cell_at(i), 0, {}};
       const Vec3 x = forest_.cell_centre(id, s.cell);
       for (int f = 0; f < 6; ++f) {
         const fluid::Face& face = specification_.face[f];
@@ -84,16 +88,18 @@ void BasicSolver<S>::build_sponge(int level) {
         const double depth = face.sponge - (f & 1 ? domain.upper[axis] - x[axis] : x[axis] - domain.lower[axis]);
         if (face.sponge <= 0.0 || depth <= 0.0) continue;
         const double rate = 9.0 * sound_speed / face.sponge * std::pow(depth / face.sponge, 2);
-        const auto damping = static_cast<float>(1.0 - std::exp(-rate * l.dt));
+        const auto damping = static_cast<Real>(1.0 - std::exp(-rate * l.dt));
         if (damping <= s.damping) continue;
         s.damping = damping;
-        s.rest[drho] = static_cast<float>(face.pressure / units_.pressure);
+        s.rest[drho] = static_cast<Real>(face.pressure / units_.pressure);
       }
-      if (s.damping == 0.0f) continue;
+      if (s.damping == 0) continue;
       for (int a = 0; a < 3; ++a)
-        s.rest[ux + a] = static_cast<float>(specification_.initial_velocity[a](x, 0.0) / units_.velocity);
-      l.sponge.push_back(s);
+        s.rest[ux + a] = static_cast<Real>(specification_.initial_velocity[a](x, 0.0) / units_.velocity);
+      sponge.cells.push_back(s);
     }
+    if (!sponge.cells.empty()) l.sponge.push_back(std::move(sponge));
+  }
 }
 
 #ifdef __F16C__
@@ -102,5 +108,7 @@ template void BasicSolver<HalfStress>::build_sponge(int);
 #endif
 template void BasicSolver<FloatStress>::initialise();
 template void BasicSolver<FloatStress>::build_sponge(int);
+template void BasicSolver<DoubleStress>::initialise();
+template void BasicSolver<DoubleStress>::build_sponge(int);
 
 }  // namespace drogue::lbm

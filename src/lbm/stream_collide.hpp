@@ -5,20 +5,22 @@
 
 #include <array>
 
+#include "fluid/specification.hpp"
 #include "lbm/moments.hpp"
 
 namespace drogue::lbm {
 
-/// Collision constants of a level. Hybrid recursive regularised: Pneq after streaming is blended with its
-/// finite-difference estimate, sigma Pneq - (1 - sigma) 2/3 rho tau S.
+/// Collision constants of a level.
 struct Relaxation {
-  float tau;    ///< relaxation time in steps
-  float sigma;  ///< 1: recursive regularised
-
-  static Relaxation of_viscosity(double lattice_viscosity, double sigma) {
-    return {static_cast<float>(0.5 + 3.0 * lattice_viscosity), static_cast<float>(sigma)};
-  }
+  double tau;          ///< relaxation time in steps
+  double sigma;        ///< hybrid recursive regularised: share of Pneq after streaming, the rest of
+                       ///< sigma Pneq - (1 - sigma) 2/3 rho tau S being its finite-difference estimate
+  double eddy_factor;  ///< of eddy_viscosity()
 };
+
+/// With an eddy viscosity the stress is stored divided by 1 - 1/tau (see BlockKernel::regularise), which must stay away
+/// from zero; a level that viscous resolves the flow anyway.
+inline constexpr double largest_tau_with_eddy_viscosity = 0.7;
 
 /// Bounds beyond which a cell counts as diverged.
 inline constexpr float speed_limit = 0.45f;   ///< |u| in cells per step
@@ -31,13 +33,18 @@ struct BlockRecord {
 
 template <class S>
 struct BlockNeighbourhood {
-  std::array<const std::byte*, 27> source;  ///< by amr::neighbour_slot; the rims that face the block must be filled
-  std::byte* target;
+  std::array<const std::byte*, 27> source;   ///< by amr::neighbour_slot; the rims that face the block must be filled
+  std::array<const std::byte*, 27> columns;  ///< MomentField::columns of those that are leaves, else null
+  std::byte *target, *target_columns;
   const BlockNeighbourhood* next = nullptr;  ///< the block after this one, whose rows are prefetched meanwhile
 };
 
-/// Advances one block. Instantiated for HalfStress and FloatStress.
+/// Advances one block.
 template <class S>
-BlockRecord stream_collide(const BlockNeighbourhood<S>& blocks, const Relaxation& relaxation);
+using BlockUpdate = BlockRecord (*)(const BlockNeighbourhood<S>&, const Relaxation&);
+
+/// The update of a scheme. Eddy viscosities come with `hrr`, whose gradients they use; throws InputError with others.
+template <class S>
+BlockUpdate<S> block_update(fluid::Collision collision, fluid::EddyViscosity eddy);
 
 }  // namespace drogue::lbm

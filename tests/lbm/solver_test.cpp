@@ -206,14 +206,11 @@ TEST(Solver, a_sponge_absorbs_sound_and_leaves_uniform_flow_alone) {
     s.initial_pressure = Expression("2*exp(-(x-10)^2)");
     const double dx = 0.25;
     Solver solver(amr::Forest({{Vec3::Zero(), Vec3(64 * dx, 16 * dx, 16 * dx)}, dx, {}}, 0, amr::any_of({})), s);
-    while (solver.time() < 1.0) solver.step(nullptr);  // through the outlet and back to the middle
+    while (solver.time() < 1.0) solver.step(nullptr);  // its front half to the outlet and back to the middle
     fluid::BlockFields fields;
-    double largest = 0.0;
-    for (int id = 0; id < 4; ++id) {
-      solver.read_block(id, fields);
-      for (const float p : fields.pressure) largest = std::max(largest, std::abs(double{p}));
-    }
-    left[sponge] = largest;
+    solver.read_block(solver.forest().locate(Vec3(10.0, 2.0, 2.0))->block, fields);
+    left[sponge] = 0.0;
+    for (const float p : fields.pressure) left[sponge] = std::max(left[sponge], std::abs(double{p}));
 
     s.initial_pressure.reset();
     Solver quiet(amr::Forest({{Vec3::Zero(), Vec3(64 * dx, 16 * dx, 16 * dx)}, dx, {}}, 0, amr::any_of({})), s);
@@ -222,7 +219,7 @@ TEST(Solver, a_sponge_absorbs_sound_and_leaves_uniform_flow_alone) {
     for (const float u : fields.velocity[0]) ASSERT_NEAR(u, 1.0f, 2e-5f);
   }
   std::printf("  largest pressure left: %.3f Pa without, %.3f Pa with a sponge\n", left[0], left[1]);
-  EXPECT_LT(left[1], left[0]);
+  EXPECT_LT(left[1], 0.2 * left[0]);
 }
 
 TEST(Solver, gives_the_same_bits_for_any_number_of_threads) {
