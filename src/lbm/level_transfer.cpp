@@ -131,11 +131,8 @@ TransferPlan plan_restriction(const amr::Forest& forest, int level) {
       }
       const int child = forest.block(id).child[octant];
       for (const CellBox& box : without_repeats(boxes)) {
-        Sides used;
-        for (int a = 0; a < 3; ++a) used[a] = {box.begin[a] == 0, box.end[a] == n / 2};
-        const Sides available = available_sides(forest, child, used);
         ResampleJob job{child, id, {}, {half[0] * n / 2, half[1] * n / 2, half[2] * n / 2}};
-        for (int a = 0; a < 3; ++a) job.axis[a] = restriction_axis(box.begin[a], box.end[a], available[a]);
+        for (int a = 0; a < 3; ++a) job.axis[a] = restriction_axis(box.begin[a], box.end[a]);
         plan.job.push_back(job);
       }
     }

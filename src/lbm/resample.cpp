@@ -215,10 +215,10 @@ void write_along_y(std::byte* block, int m, const Index3& cell, int count, Vec<t
 }
 
 template <class S, int V>
-void run(const ResampleJob& job, const amr::Forest& forest, const SourceFields<S>& source, double stress_factor,
-         MomentField<S>& target) {
+[[gnu::flatten]] void run(const ResampleJob& job, const amr::Forest& forest, const SourceFields<S>& source,
+                          double stress_factor, MomentField<S>& target) {
   using Real = typename S::Real;
-  const bool x_lines = job.axis[0].outputs() >= job.axis[1].outputs();
+  const bool x_lines = job.axis[0].inputs() > 4;
   const Axis &along = job.axis[x_lines ? 0 : 1], &p = job.axis[x_lines ? 1 : 0], &z = job.axis[2];
   const LineReader<S, V> reader(job, forest, source, along);
   const LaneCombination<Real, V> combine_lanes(along);
@@ -267,19 +267,17 @@ Axis cubic_axis(int begin, int end, int half, std::array<bool, 2> available) {
   return axis;
 }
 
-Axis restriction_axis(int begin, int end, std::array<bool, 2> available) {
+Axis restriction_axis(int begin, int end) {
   Axis axis{begin, end, 5, {}, {}};
   for (int i = begin; i < end; ++i) {
-    const bool first = i == 0, last = i == n / 2 - 1;
-    // the centred four points stand in five taps, the fifth kept inside the rim
-    axis.start[i] = last ? n - 4 : 2 * i - 1;
+    // the centred four points stand in five taps
+    axis.start[i] = 2 * i - 1;
     axis.weight[i] = {-1, 9, 9, -1, 0};
-    if (last) axis.weight[i] = {0, -1, 9, 9, -1};
-    if (first && !available[0]) {
+    if (i == 0) {
       axis.start[i] = 0;
       axis.weight[i] = {6, 11, 1, -3, 1};
     }
-    if (last && !available[1]) {
+    if (i == n / 2 - 1) {
       axis.start[i] = n - 5;
       axis.weight[i] = {1, -3, 1, 11, 6};
     }

@@ -31,9 +31,9 @@ struct Axis {
 Axis cubic_axis(int begin, int end, int half, std::array<bool, 2> available);
 
 /// Fourth-order restriction of a fine block onto coarse cells [begin, end) of the eight it covers: (-1, 9, 9, -1) / 16,
-/// and (6, 11, 1, -3, 1) / 16 where the neighbour is not `available`; both reproduce cubics and remove the shortest
-/// wave.
-Axis restriction_axis(int begin, int end, std::array<bool, 2> available);
+/// and (6, 11, 1, -3, 1) / 16 at the ends of the block, so that no neighbour is read; both reproduce cubics and remove
+/// the shortest wave.
+Axis restriction_axis(int begin, int end);
 
 /// A box of `target` computed from `source` and its neighbours on its level.
 struct ResampleJob {

@@ -106,19 +106,16 @@ TEST(LevelTransfer, every_rim_a_leaf_streams_from_is_filled) {
 }
 
 TEST(LevelTransfer, weights_sum_to_one_and_remove_the_shortest_wave_on_the_way_up) {
-  for (const bool low : {false, true})
-    for (const bool high : {false, true}) {
-      const Axis axis = restriction_axis(0, n / 2, {low, high});
-      for (int i = 0; i < n / 2; ++i) {
-        float sum = 0.0f, alternating = 0.0f;
-        for (int k = 0; k < axis.taps; ++k) {
-          sum += axis.weight[i][k];
-          alternating += (k & 1 ? -1.0f : 1.0f) * axis.weight[i][k];
-        }
-        EXPECT_FLOAT_EQ(sum, 1.0f);
-        EXPECT_NEAR(alternating, 0.0f, 1e-7f);
-      }
+  const Axis axis = restriction_axis(0, n / 2);
+  for (int i = 0; i < n / 2; ++i) {
+    double sum = 0.0, alternating = 0.0;
+    for (int k = 0; k < axis.taps; ++k) {
+      sum += axis.weight[i][k];
+      alternating += (k & 1 ? -1.0 : 1.0) * axis.weight[i][k];
     }
+    EXPECT_DOUBLE_EQ(sum, 1.0);
+    EXPECT_DOUBLE_EQ(alternating, 0.0);
+  }
 }
 
 }  // namespace
