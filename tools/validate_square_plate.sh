@@ -23,7 +23,7 @@ patch-63mm|held patch 1/16 m|$plate --set body.plate.hold.0.patch=0.063
 mesh-26|26 x 26 hexahedra|$plate --set body.plate.mesh.elements=[26,26,1]
 mesh-104|104 x 104 hexahedra|$plate --set body.plate.mesh.elements=[104,104,1]
 delta-3|three-point delta|$plate --set body.plate.coupling.delta=peskin3
-peskin|plain IB/FE coupling, corners held rigidly|$plate --set body.plate.coupling.scheme=peskin --set body.plate.hold=[{nodes="corners",patch=0.032,rigid=true}]
+peskin|plain IB/FE coupling, corners held rigidly, quarter time step|$plate --set body.plate.coupling.scheme=peskin --set fluid.lattice_velocity=0.0125 --set body.plate.hold=[{nodes="corners",patch=0.032,rigid=true}]
 hold-rigid|corners held rigidly|$plate --set body.plate.hold=[{nodes="corners",patch=0.032,rigid=true}]
 tether-soft|tether 100 times as soft|$plate --set body.plate.hold.0.stiffness=1.5e6
 stab-0|numerical Poisson's ratio 0|$plate --set body.plate.material.poisson_stabilisation=0
@@ -31,6 +31,8 @@ density-air|fluid and plate of 1.225 kg/m^3|$plate --set fluid.density=1.225 --s
 start-ramp|start from rest, inlet ramp of 0.5 s|$plate --set fluid.initial=rest --set domain.x_min.ramp=0.5
 wake|finest cells to x = 2, y and z to 1|$plate --set grid.region.1.spacing=1/64 --set grid.region.1.box=[[-0.25,-1,-1],[2,1,1]]
 rigid|all nodes held|$plate --set body.plate.hold=[{nodes="all",rigid=true}]
+rigid-wake|all nodes held, finest cells to x = 2, y and z to 1|$plate --set body.plate.hold=[{nodes="all",rigid=true}] --set grid.region.1.spacing=1/64 --set grid.region.1.box=[[-0.25,-1,-1],[2,1,1]]
+rigid-96|all nodes held, cells of 1/96 m|$plate --set body.plate.hold=[{nodes="all",rigid=true}] --set grid.coarsest=1/12 --set grid.finest=1/96 --set grid.region.0.spacing=1/96 --set grid.region.1.spacing=1/48 --set grid.region.2.spacing=1/24
 wide|domain of 16 x 8 x 8 m|$plate --set domain.lower=[-4,-4,-4] --set domain.upper=[12,4,4]
 rigid-wide|all nodes held, domain of 16 x 8 x 8 m|$plate --set domain.lower=[-4,-4,-4] --set domain.upper=[12,4,4] --set body.plate.hold=[{nodes="all",rigid=true}]
 svk|Saint Venant-Kirchhoff|$svk
