@@ -4,6 +4,8 @@
 
 #include <chrono>
 
+#include "core/archive.hpp"
+
 namespace drogue {
 
 /// Adds up the wall time between `start` and `stop`.
@@ -12,6 +14,13 @@ class Stopwatch {
   void start() { started_ = Clock::now(); }
   void stop() { total_ += Clock::now() - started_; }
   double seconds() const { return std::chrono::duration<double>(total_).count(); }
+
+  /// A continued run goes on counting.
+  void transfer_state(Archive& archive) {
+    double seconds = this->seconds();
+    archive.transfer("seconds", seconds);
+    total_ = std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(seconds));
+  }
 
  private:
   using Clock = std::chrono::steady_clock;
@@ -31,12 +40,16 @@ class Timed {
   Stopwatch& watch_;
 };
 
-/// Wall time since construction [s].
+/// Wall time since construction [s], and what is added to it.
 class Elapsed {
  public:
-  double seconds() const { return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin_).count(); }
+  double seconds() const {
+    return added_ + std::chrono::duration<double>(std::chrono::steady_clock::now() - begin_).count();
+  }
+  void add(double seconds) { added_ += seconds; }
 
  private:
+  double added_ = 0.0;
   std::chrono::steady_clock::time_point begin_ = std::chrono::steady_clock::now();
 };
 

@@ -266,6 +266,14 @@ std::array<double, 2> Structure::face_velocity_difference() const {
   return {std::sqrt(along / pairs), std::sqrt(full / pairs)};
 }
 
+void Structure::transfer_state(Archive& archive) {
+  std::vector<Vec3> reference = data_->mesh.nodes;
+  archive.transfer("reference", reference);
+  if (reference != data_->mesh.nodes) throw InputError("the mesh of a structure has changed since its state was saved");
+  archive.transfer("position", data_->x);
+  archive.transfer("velocity", data_->v);
+}
+
 double Structure::mean_thickness_stretch() const {
   double sum = 0.0;
   int pairs = 0;

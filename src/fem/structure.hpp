@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "core/archive.hpp"
 #include "core/types.hpp"
 #include "fem/hex_mesh.hpp"
 #include "fem/material.hpp"
@@ -87,6 +88,9 @@ class Structure {
   /// How far a thin solid is from plane stress: mean over its elements of the thickness stretch that would free their
   /// faces of stress, and the root mean square of the relative difference of the one they have. {1, 0} without pairs.
   std::array<double, 2> plane_stress_comparison() const;
+
+  /// Saves or restores positions and velocities. Throws InputError if those saved are of another mesh.
+  void transfer_state(Archive& archive);
 
  private:
   struct Data;

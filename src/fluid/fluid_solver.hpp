@@ -8,6 +8,7 @@
 #include <span>
 
 #include "amr/forest.hpp"
+#include "core/archive.hpp"
 #include "fluid/views.hpp"
 
 namespace drogue::fluid {
@@ -59,6 +60,10 @@ class FluidSolver {
   virtual void read_block(int block, BlockFields& fields) const = 0;
   /// Total mass [kg] and momentum [kg m/s] over the leaves.
   virtual std::array<double, 4> mass_and_momentum() const = 0;
+
+  /// Saves or restores the state between two coarse steps; a solver of the same forest and specification that restored
+  /// it goes on with the same bits.
+  virtual void transfer_state(Archive& archive) = 0;
 };
 
 }  // namespace drogue::fluid

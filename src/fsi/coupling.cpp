@@ -151,6 +151,12 @@ Vec3 Coupling::take_mean_force() {
   return elapsed > 0.0 ? Vec3(impulse / elapsed) : Vec3::Zero();
 }
 
+void Coupling::transfer_state(Archive& archive) {
+  archive.transfer("impulse", impulse_);
+  archive.transfer("impulse_time", elapsed_);
+  archive.transfer("structure_time", structure_time_);
+}
+
 std::array<double, 2> Coupling::slip(const fluid::VelocityView& u) const {
   if (markers_.size() == 0) return {0.0, 0.0};
   std::vector<Vec3> slip(points_.size());

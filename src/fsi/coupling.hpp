@@ -52,6 +52,9 @@ class Coupling : public fluid::FineStepHook {
   /// normal (of a thin solid), and rms of the vector [m/s]. Taken where the last force was spread.
   std::array<double, 2> slip(const fluid::VelocityView& u) const;
 
+  /// Saves or restores what the next mean force has summed so far; the structure's state is its own.
+  void transfer_state(Archive& archive);
+
  private:
   void step_with_added_mass(fluid::FineStep& step);
   void step_as_peskin(fluid::FineStep& step);

@@ -286,6 +286,24 @@ std::array<double, 4> BasicSolver<S>::mass_and_momentum() const {
   return total;
 }
 
+/// The present of leaves and parents; everything else is filled from it in the course of a step.
+template <class S>
+void BasicSolver<S>::transfer_state(Archive& archive) {
+  for (int level = 0; level < forest_.levels(); ++level) {
+    Level& l = levels_[level];
+    MomentField<S>& field = field_[l.now];
+    const auto leaves = forest_.range(level, amr::Kind::leaf), parents = forest_.range(level, amr::Kind::parent);
+    const std::size_t bytes = (parents.end - leaves.begin) * RowLayout<S>::block_bytes;
+    const std::string name = "level" + std::to_string(level);
+    archive.transfer(name + "/time", l.time);
+    archive.transfer(name + "/moments", std::span(field.block(leaves.begin), bytes));
+    for (int id = leaves.begin; id < leaves.end; ++id) field.refresh_columns(id);
+  }
+  archive.transfer("cell_updates", statistics_.cell_updates);
+  archive.transfer("max_mach", statistics_.max_mach);
+  archive.transfer("max_speed", statistics_.max_speed);
+}
+
 std::unique_ptr<fluid::FluidSolver> make_solver(amr::Forest forest, const fluid::Specification& specification) {
   switch (specification.storage) {
     case fluid::Storage::half_stress:

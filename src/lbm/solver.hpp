@@ -37,6 +37,7 @@ class BasicSolver : public fluid::FluidSolver {
   fluid::VelocityView fine_velocity() const override;
   void read_block(int block, fluid::BlockFields& fields) const override;
   std::array<double, 4> mass_and_momentum() const override;
+  void transfer_state(Archive& archive) override;
 
   /// Relaxation time of a level in its own steps.
   double tau(int level) const { return levels_[level].relaxation.tau; }

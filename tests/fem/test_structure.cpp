@@ -7,6 +7,7 @@
 #include <cstring>
 #include <numbers>
 
+#include "../core/memory_archive.hpp"
 #include "bodies.hpp"
 #include "core/error.hpp"
 
@@ -295,6 +296,34 @@ TEST(Structure, every_number_of_threads_gives_the_same_bits) {
     EXPECT_EQ(plate.reaction(), reference_reaction);
   }
   omp_set_num_threads(threads_before);
+}
+
+TEST(Structure, a_restored_state_goes_on_with_the_same_bits) {
+  const HexMesh mesh = thin_plate();
+  const auto make = [&] {
+    Structure plate(mesh, neo_hookean, {.density = 1.0}, {{corner_nodes(mesh, 0.02), false, 1e7, 10.0}});
+    plate.set_inertia(paired(plate, 40.0));
+    return plate;
+  };
+  Structure whole = make(), continued = make();
+  whole.set_state(mesh.nodes, random_vectors(mesh.nodes.size(), 0.5, 9));
+  for (int step = 0; step < 3; ++step) whole.advance(7e-4, 0.0);
+  testing::copy_state(whole, continued);
+  for (Structure* plate : {&whole, &continued}) {
+    for (int step = 0; step < 3; ++step) plate->advance(7e-4, 0.0);
+  }
+  EXPECT_EQ(copy(continued.position()), copy(whole.position()));
+  EXPECT_EQ(copy(continued.velocity()), copy(whole.velocity()));
+  EXPECT_EQ(continued.reaction(), whole.reaction());
+  EXPECT_EQ(continued.substeps(), whole.substeps());
+}
+
+TEST(Structure, the_state_of_another_mesh_is_refused) {
+  HexMesh mesh = thin_plate();
+  Structure plate(mesh, neo_hookean, {.density = 1.0}, {});
+  mesh.nodes.front().x() += 1e-4;
+  Structure other(mesh, neo_hookean, {.density = 1.0}, {});
+  EXPECT_THROW(testing::copy_state(plate, other), InputError);
 }
 
 TEST(Structure, sub_steps_follow_the_thickness_mode) {

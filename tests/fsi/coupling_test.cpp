@@ -6,6 +6,7 @@
 
 #include <cstring>
 
+#include "../core/memory_archive.hpp"
 #include "bodies.hpp"
 #include "core/error.hpp"
 #include "ib/direct_forcing.hpp"
@@ -157,6 +158,19 @@ TEST(Coupling, the_mean_force_is_over_the_time_since_it_was_taken) {
   }
   EXPECT_LT((coupling.take_mean_force() - impulse / (3.5 * dt)).norm(), 1e-12);
   EXPECT_EQ(coupling.take_mean_force(), Vec3::Zero());
+}
+
+TEST(Coupling, a_restored_one_goes_on_summing_the_mean_force) {
+  const amr::Forest forest = cube_of_fine_blocks();
+  FakeFluid fluid(forest, fluid_density);
+  fluid.fill_at_random(37);
+  fem::Structure solid = plate({});
+  Coupling coupling(solid, forest, coupled()), restored(solid, forest, coupled());
+  for (int step = 0; step < 3; ++step) fluid.step(coupling, dt);
+  copy_state(coupling, restored);
+  const Vec3 mean = coupling.take_mean_force();
+  EXPECT_NE(mean, Vec3::Zero());
+  EXPECT_EQ(restored.take_mean_force(), mean);
 }
 
 TEST(Coupling, same_bits_for_any_number_of_threads) {

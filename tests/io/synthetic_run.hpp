@@ -52,6 +52,7 @@ class FormulaFluid : public fluid::FluidSolver {
   const fluid::FluidStatistics& statistics() const override { return statistics_; }
   fluid::VelocityView fine_velocity() const override { throw std::logic_error("a formula has no finest level"); }
   std::array<double, 4> mass_and_momentum() const override { return {}; }
+  void transfer_state(Archive&) override {}
   void read_block(int block, fluid::BlockFields& fields) const override {
     int n = 0;
     for (int k = 0; k < amr::block_size; ++k)
