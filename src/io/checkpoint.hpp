@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A container for the state of a run: named arrays and numbers in one HDF5 file. What they mean is their owners'
-// business; names are paths such as "lbm/level3/moments".
+// The state of a run in one HDF5 file: named arrays with checksums. What they mean is their owners' business; names are
+// paths such as "simulation/fluid/level3/moments".
 #pragma once
 
 #include <filesystem>
@@ -8,60 +8,54 @@
 #include <string>
 #include <vector>
 
+#include "core/archive.hpp"
 #include "io/hdf5_file.hpp"
 #include "io/pending_file.hpp"
 
 namespace drogue::io {
 
-/// Writes a checkpoint; nothing appears under its name before `commit`. T is float, double, std::int32_t, std::int64_t
-/// or std::byte. Every member throws std::runtime_error naming the file.
-class CheckpointWriter {
+/// To be raised whenever what a checkpoint holds changes its name or its meaning.
+inline constexpr int checkpoint_format = 1;
+
+/// Writes a checkpoint; nothing appears under its name before `commit`. Every member throws std::runtime_error naming
+/// the file.
+class CheckpointWriter : public Archive {
  public:
-  explicit CheckpointWriter(const std::filesystem::path& file)
-      : pending_(file), file_(Hdf5File::create(pending_.path())) {}
+  explicit CheckpointWriter(const std::filesystem::path& file);
 
-  template <class T>
-  void put(const std::string& name, std::span<const T> values) {
-    file_.write<T>(name, values);
-  }
-  template <class T>
-  void put(const std::string& name, const std::vector<T>& values) {
-    file_.write<T>(name, values);
-  }
-  /// Numbers and text that describe the run as a whole.
+  /// Describes the run as a whole.
   void put_number(const std::string& name, double value) { file_.write_attribute<double>("/", name, {&value, 1}); }
-  void put_text(const std::string& name, const std::string& text) { file_.write_attribute("/", name, text); }
-
-  void commit() {
-    file_.close();
-    pending_.commit();
-  }
+  void commit();
 
  private:
+  template <class T>
+  void put(const std::string& path, std::span<const T> values);
+  void exchange(const std::string& path, std::span<std::byte> values) override;
+  void exchange(const std::string& path, std::span<double> values) override;
+  void exchange(const std::string& path, std::span<std::int64_t> values) override;
+  std::size_t size(const std::string& path, std::size_t own) const override;
+
   PendingFile pending_;
   Hdf5File file_;
 };
 
-/// Reads a checkpoint. Every member throws std::runtime_error naming the file and what is missing or of another size.
-class CheckpointReader {
+/// Reads a checkpoint. Every member throws std::runtime_error naming the file and what is missing or damaged, and
+/// InputError for what is of another size or format.
+class CheckpointReader : public Archive {
  public:
-  explicit CheckpointReader(const std::filesystem::path& file) : file_(Hdf5File::open(file)) {}
+  explicit CheckpointReader(const std::filesystem::path& file);
 
-  bool has(const std::string& name) const { return file_.has(name); }
-  std::size_t size(const std::string& name) const { return file_.size(name); }  ///< number of values
-  template <class T>
-  std::vector<T> get(const std::string& name) const {
-    return file_.read<T>(name);
-  }
-  /// Into memory that is already there; the sizes must agree.
-  template <class T>
-  void get(const std::string& name, std::span<T> values) const {
-    file_.read<T>(name, values);
-  }
   double number(const std::string& name) const { return file_.read_attribute<double>("/", name).at(0); }
-  std::string text(const std::string& name) const { return file_.read_text_attribute("/", name); }
 
  private:
+  template <class T>
+  void get(const std::string& path, std::span<T> values) const;
+  void exchange(const std::string& path, std::span<std::byte> values) override;
+  void exchange(const std::string& path, std::span<double> values) override;
+  void exchange(const std::string& path, std::span<std::int64_t> values) override;
+  std::size_t size(const std::string& path, std::size_t own) const override;
+
+  std::string name_;
   Hdf5File file_;
 };
 

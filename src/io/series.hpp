@@ -13,9 +13,12 @@ struct SeriesEntry {
   double time;       ///< [s]
 };
 
-/// Appends a file. Entries at `time` or later are dropped first, so a resumed run replaces what it computes again.
-/// Throws std::runtime_error naming the series if it cannot be read or written.
+/// Appends a file. Throws std::runtime_error naming the series if it cannot be read or written.
 void append_to_series(const std::filesystem::path& series, const std::string& name, double time);
+
+/// Drops the entries after `time` [s] and removes their files: a continued run writes them again. Throws like
+/// append_to_series.
+void cut_series(const std::filesystem::path& series, double time);
 
 /// Empty if there is no such file.
 std::vector<SeriesEntry> read_series(const std::filesystem::path& series);

@@ -68,19 +68,21 @@ TEST(Canopy, an_array_of_the_wrong_length_is_refused) {
   EXPECT_TRUE(folder.names().empty());
 }
 
-TEST(Series, a_resumed_run_replaces_the_later_frames) {
+TEST(Series, is_cut_back_with_its_files) {
   const TemporaryFolder folder("series");
   const auto series = folder / "canopy.vtu.series";
   EXPECT_TRUE(io::read_series(series).empty());
-  io::append_to_series(series, "canopy_000000.vtu", 0.0);
-  io::append_to_series(series, "canopy_000001.vtu", 0.1);
-  io::append_to_series(series, "canopy_000002.vtu", 0.2);
-  io::append_to_series(series, "canopy_000001.vtu", 0.1);
+  for (int i = 0; i < 4; ++i) {
+    const std::string name = "canopy_" + std::to_string(i) + ".vtu";
+    std::ofstream(folder / name) << "a canopy";
+    io::append_to_series(series, name, 0.1 * i);
+  }
+  io::cut_series(series, 0.1);
   const auto entries = io::read_series(series);
   ASSERT_EQ(entries.size(), 2u);
-  EXPECT_EQ(entries[1].name, "canopy_000001.vtu");
+  EXPECT_EQ(entries[1].name, "canopy_1.vtu");
   EXPECT_EQ(entries[1].time, 0.1);
-  EXPECT_EQ(folder.names(), std::vector<std::string>{"canopy.vtu.series"});
+  EXPECT_EQ(folder.names(), (std::vector<std::string>{"canopy.vtu.series", "canopy_0.vtu", "canopy_1.vtu"}));
 }
 
 TEST(Series, a_damaged_series_is_named) {

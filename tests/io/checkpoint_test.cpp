@@ -3,6 +3,9 @@
 
 #include <gtest/gtest.h>
 
+#include <fstream>
+
+#include "core/error.hpp"
 #include "synthetic_run.hpp"
 
 namespace drogue {
@@ -10,56 +13,104 @@ namespace {
 
 using test::TemporaryFolder;
 
-TEST(Checkpoint, arrays_and_numbers_read_back_bit_for_bit) {
-  const TemporaryFolder folder("checkpoint_round_trip");
-  const std::vector<std::byte> bytes{std::byte{0}, std::byte{255}, std::byte{7}};
-  const std::vector<float> floats{1.5f, -0.1f};
-  const std::vector<double> doubles{0.1, 1e-300, -3.0};
-  const std::vector<std::int64_t> integers{1LL << 40, -5};
-  io::CheckpointWriter out(folder / "checkpoint_000001.h5");
-  out.put("lbm/level3/moments", bytes);
-  out.put("lbm/scale", floats);
-  out.put<double>("plate/position", std::span<const double>(doubles));
-  out.put("steps", integers);
-  out.put("empty", std::vector<double>{});
-  out.put_number("time", 0.3);
-  out.put_text("case", "square plate");
-  EXPECT_FALSE(std::filesystem::exists(folder / "checkpoint_000001.h5")) << "visible before it is complete";
-  out.commit();
+struct Part {
+  std::vector<double> series{0.1, 1e-300, -3.0};
+  std::int64_t steps = 1LL << 40;
 
-  const io::CheckpointReader in(folder / "checkpoint_000001.h5");
-  EXPECT_EQ(in.get<std::byte>("lbm/level3/moments"), bytes);
-  EXPECT_EQ(in.get<float>("lbm/scale"), floats);
-  EXPECT_EQ(in.get<std::int64_t>("steps"), integers);
-  std::vector<double> read(3);
-  in.get<double>("plate/position", read);
-  EXPECT_EQ(read, doubles);
-  EXPECT_EQ(in.size("empty"), 0u);
-  EXPECT_TRUE(in.get<double>("empty").empty());
+  void transfer_state(Archive& archive) {
+    archive.transfer("series", series);
+    archive.transfer("steps", steps);
+  }
+  bool operator==(const Part&) const = default;
+};
+
+struct Whole {
+  std::vector<std::byte> bytes{std::byte{0}, std::byte{255}, std::byte{7}};
+  std::vector<Vec3> position{Vec3(0.1, -0.2, 0.3), Vec3(1.0, 2.0, 3.0)};
+  Vec3 force{1.5, 0.0, -0.1};
+  double time = 0.3;
+  int index = -5;
+  std::vector<double> nothing;
+  Part part;
+
+  void transfer_state(Archive& archive) {
+    archive.transfer("block/bytes", bytes);
+    archive.transfer("position", position);
+    archive.transfer("force", force);
+    archive.transfer("time", time);
+    archive.transfer("index", index);
+    archive.transfer("nothing", nothing);
+    archive.transfer("part", part);
+  }
+  bool operator==(const Whole&) const = default;
+};
+
+void write(const std::filesystem::path& file, Whole whole = {}) {
+  io::CheckpointWriter out(file);
+  out.put_number("time", whole.time);
+  out.transfer("whole", whole);
+  EXPECT_FALSE(std::filesystem::exists(file)) << "visible before it is complete";
+  out.commit();
+}
+
+template <class Error>
+std::string message(const auto& read) {
+  try {
+    read();
+  } catch (const Error& error) {
+    return error.what();
+  }
+  return "nothing thrown";
+}
+
+TEST(Checkpoint, state_reads_back_bit_for_bit) {
+  const TemporaryFolder folder("checkpoint_round_trip");
+  write(folder / "checkpoint_000001.h5");
+  io::CheckpointReader in(folder / "checkpoint_000001.h5");
+  Whole read{{3, std::byte{9}}, {2, Vec3::Zero()}, Vec3::Zero(), 0.0, 0, {1.0}, {{}, 0}};
+  in.transfer("whole", read);
+  EXPECT_EQ(read, Whole());
   EXPECT_EQ(in.number("time"), 0.3);
-  EXPECT_EQ(in.text("case"), "square plate");
-  EXPECT_TRUE(in.has("lbm/level3/moments"));
-  EXPECT_FALSE(in.has("lbm/level4/moments"));
 }
 
 TEST(Checkpoint, what_is_missing_or_of_another_size_is_named) {
   const TemporaryFolder folder("checkpoint_missing");
-  io::CheckpointWriter out(folder / "checkpoint_000001.h5");
-  out.put("position", std::vector<double>(3));
-  out.commit();
-  const io::CheckpointReader in(folder / "checkpoint_000001.h5");
-  const auto message = [](const auto& read) {
-    try {
-      read();
-    } catch (const std::runtime_error& error) {
-      return std::string(error.what());
-    }
-    return std::string("nothing thrown");
-  };
-  std::vector<double> four(4);
-  EXPECT_NE(message([&] { in.get<double>("position", four); }).find("3 values, not 4"), std::string::npos);
-  EXPECT_NE(message([&] { in.get<double>("velocity"); }).find("velocity"), std::string::npos);
-  EXPECT_NE(message([&] { in.number("time"); }).find("time"), std::string::npos);
+  write(folder / "checkpoint_000001.h5");
+  io::CheckpointReader in(folder / "checkpoint_000001.h5");
+  std::vector<Vec3> three(3);
+  EXPECT_NE(
+      message<InputError>([&] { in.transfer("whole/position", three); }).find("whole/position has 6 values, not 9"),
+      std::string::npos);
+  Vec3 velocity;
+  EXPECT_NE(message<std::runtime_error>([&] { in.transfer("whole/velocity", velocity); }).find("whole/velocity"),
+            std::string::npos);
+  EXPECT_NE(message<std::runtime_error>([&] { in.number("speed"); }).find("speed"), std::string::npos);
+}
+
+TEST(Checkpoint, another_format_is_refused) {
+  const TemporaryFolder folder("checkpoint_format");
+  auto out = io::Hdf5File::create(folder / "checkpoint_000001.h5");
+  const double format = io::checkpoint_format + 1;
+  out.write_attribute<double>("/", "format", {&format, 1});
+  out.close();
+  EXPECT_NE(
+      message<InputError>([&] { io::CheckpointReader in(folder / "checkpoint_000001.h5"); }).find("is of format 2"),
+      std::string::npos);
+}
+
+TEST(Checkpoint, a_changed_byte_or_a_missing_end_is_noticed) {
+  const TemporaryFolder folder("checkpoint_damage");
+  const auto file = folder / "checkpoint_000001.h5";
+  Whole whole;
+  whole.bytes.assign(3 << 20, std::byte{1});
+  write(file, whole);
+  std::fstream(file, std::ios::in | std::ios::out | std::ios::binary).seekp(2 << 20).put('\2');
+  EXPECT_NE(
+      message<std::runtime_error>([&] { io::CheckpointReader(file).transfer("whole", whole); }).find("block/bytes"),
+      std::string::npos);
+  std::filesystem::resize_file(file, 2 << 20);
+  EXPECT_NE(message<std::runtime_error>([&] { io::CheckpointReader in(file); }).find("could not open"),
+            std::string::npos);
 }
 
 TEST(Checkpoint, an_abandoned_one_leaves_nothing_and_keeps_what_was_there) {
