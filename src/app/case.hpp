@@ -51,6 +51,7 @@ struct Body {
 /// Intervals between outputs [s]; 0 for none (history: every coarse step).
 struct Output {
   double history = 0.0, fluid = 0.0, canopy = 0.0;
+  double checkpoint = 0.0;  ///< of wall time
 };
 
 struct ResultOptions {

@@ -308,6 +308,10 @@ void read_output(Section section, Case& c) {
   c.output.history = interval("history", "between rows of history.csv; 0 for every coarse step", 0.0);
   c.output.fluid = interval("fluid", "between snapshots of the flow; 0 for none", 0.0);
   c.output.canopy = interval("canopy", "between snapshots of the bodies; 0 for none", 0.0);
+  c.output.checkpoint = interval("checkpoint",
+                                 "of wall time between checkpoints, from which `run --continue` goes on; also at the "
+                                 "end and when interrupted; 0 for none",
+                                 600.0);
 }
 
 void read_results(Section section, Case& c) {

@@ -70,7 +70,9 @@ int run_command(const std::string& program, std::vector<std::string> arguments) 
   run_command->add_option("-o,--output", run.folder, "folder of the run (default: runs/NAME)");
   run_command->add_option("--threads", run.threads, "number of threads (default: all)")->check(CLI::PositiveNumber);
   run_command->add_option("--until", run.until, "stop at this time [s]")->check(CLI::PositiveNumber);
-  run_command->add_flag("--force", run.force, "replace a run that is already there");
+  CLI::Option* force = run_command->add_flag("--force", run.force, "replace a run that is already there");
+  run_command->add_flag("--continue", run.resume, "go on with the run in that folder, from its last checkpoint")
+      ->excludes(force);
   run_command->add_flag("--quiet", run.quiet, "show warnings and errors only");
 
   fs::path path;

@@ -5,6 +5,8 @@
 
 #include <stdexcept>
 
+#include "app/run_folder.hpp"
+
 namespace drogue::app {
 
 namespace {
@@ -53,14 +55,22 @@ std::string number(double value) { return fmt::format("{:.9g}", value); }
 
 }  // namespace
 
-History::History(const std::filesystem::path& file, const std::vector<std::string>& bodies, std::size_t summarised_body)
-    : file_(file), stream_(file), summarised_body_(summarised_body) {
+History::History(const std::filesystem::path& file, const std::vector<std::string>& bodies)
+    : file_(file), bodies_(bodies), traces_(bodies.size()) {}
+
+void History::start() {
+  stream_.open(file_);
   std::vector<std::string> header{"time [s]"};
-  for (const std::string& body : bodies) {
+  for (const std::string& body : bodies_) {
     for (const auto& column : body_columns) header.push_back(fmt::format("{}.{} [{}]", body, column.name, column.unit));
   }
   for (const auto& column : run_columns) header.push_back(fmt::format("{} [{}]", column.name, column.unit));
   put_line(header);
+}
+
+void History::resume() {
+  keep_lines(file_, 1 + rows_);
+  stream_.open(file_, std::ios::app);
 }
 
 void History::append(const Row& row) {
@@ -70,14 +80,21 @@ void History::append(const Row& row) {
   }
   for (const auto& column : run_columns) cells.push_back(number(column.value(row)));
   put_line(cells);
+  ++rows_;
 
-  if (row.bodies.empty()) return;
-  const BodyRow& body = row.bodies.at(summarised_body_);
-  trace_.time.push_back(row.time);
-  trace_.c_d.push_back(body.c_d);
-  trace_.centre_dx.push_back(body.centre.x());
-  trace_.slip_normal.push_back(body.slip[0]);
-  trace_.face_difference.push_back(body.face_difference[1]);
+  for (std::size_t i = 0; i < traces_.size(); ++i) {
+    const BodyRow& body = row.bodies.at(i);
+    traces_[i].time.push_back(row.time);
+    traces_[i].c_d.push_back(body.c_d);
+    traces_[i].centre_dx.push_back(body.centre.x());
+    traces_[i].slip_normal.push_back(body.slip[0]);
+    traces_[i].face_difference.push_back(body.face_difference[1]);
+  }
+}
+
+void History::transfer_state(Archive& archive) {
+  archive.transfer("rows", rows_);
+  for (std::size_t i = 0; i < traces_.size(); ++i) archive.transfer("trace_" + bodies_[i], traces_[i]);
 }
 
 void History::put_line(const std::vector<std::string>& cells) {

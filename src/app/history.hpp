@@ -38,22 +38,27 @@ struct Row {
   double mlups = 0.0;             ///< million cell updates a second, since the row before
 };
 
+/// Every member that writes throws std::runtime_error naming the file.
 class History {
  public:
-  /// Writes the header. Throws std::runtime_error naming the file.
-  History(const std::filesystem::path& file, const std::vector<std::string>& bodies, std::size_t summarised_body);
+  History(const std::filesystem::path& file, const std::vector<std::string>& bodies);
 
+  void start();   ///< writes the header
+  void resume();  ///< goes on after the rows of the state that was restored; later ones are removed
   void append(const Row& row);
-  /// The rows so far of the body that is summarised; empty without bodies.
-  const Trace& trace() const { return trace_; }
+  /// The rows so far, body by body.
+  const std::vector<Trace>& traces() const { return traces_; }
+
+  void transfer_state(Archive& archive);
 
  private:
   void put_line(const std::vector<std::string>& cells);
 
   std::filesystem::path file_;
   std::ofstream stream_;
-  std::size_t summarised_body_;
-  Trace trace_;
+  std::vector<std::string> bodies_;
+  std::vector<Trace> traces_;
+  int rows_ = 0;
 };
 
 }  // namespace drogue::app

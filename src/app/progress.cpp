@@ -13,7 +13,8 @@ namespace drogue::app {
 namespace {
 
 constexpr double seconds_between_draws = 0.2;
-constexpr int plain_lines = 20;
+
+int twentieths(double share) { return static_cast<int>(20.0 * share + 1e-9); }
 
 std::string duration(double seconds) {
   const auto whole = static_cast<long>(std::lround(seconds));
@@ -24,7 +25,8 @@ std::string duration(double seconds) {
 
 }  // namespace
 
-Progress::Progress(double end, bool quiet) : end_(end), quiet_(quiet), live_(isatty(STDOUT_FILENO) == 1) {}
+Progress::Progress(double begin, double end, bool quiet)
+    : begin_(begin), end_(end), quiet_(quiet), live_(isatty(STDOUT_FILENO) == 1), shown_(twentieths(begin / end)) {}
 
 Progress::~Progress() { clear(); }
 
@@ -35,13 +37,13 @@ void Progress::update(double time, double mlups, std::optional<double> c_d) {
     if (now - last_draw_ < seconds_between_draws) return;
     last_draw_ = now;
   } else {
-    const int reached = static_cast<int>(share * plain_lines + 1e-9);
+    const int reached = twentieths(share);
     if (reached <= shown_) return;
     shown_ = reached;
   }
   std::string line = fmt::format("{:4.0f} %   t = {:.4g} s   {:.0f} MLUPS", 100.0 * share, time, mlups);
   if (c_d) line += fmt::format("   C_D {:.3f}", *c_d);
-  line += fmt::format("   {} left", duration(share > 0.0 ? now * (1.0 - share) / share : 0.0));
+  line += fmt::format("   {} left", duration(time > begin_ ? now * (end_ - time) / (time - begin_) : 0.0));
   if (live_) {
     fmt::print("\r\033[K{}", line);
     line_open_ = true;

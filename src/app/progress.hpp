@@ -11,8 +11,8 @@ namespace drogue::app {
 
 class Progress {
  public:
-  /// A quiet one shows nothing.
-  Progress(double end, bool quiet);
+  /// From `begin` to `end` [s]; a quiet one shows nothing.
+  Progress(double begin, double end, bool quiet);
   ~Progress();
   Progress(const Progress&) = delete;
   Progress& operator=(const Progress&) = delete;
@@ -23,10 +23,10 @@ class Progress {
   void clear();
 
  private:
-  double end_;
+  double begin_, end_;
   bool quiet_, live_;
   bool line_open_ = false;
-  int shown_ = 0;            // twentieths
+  int shown_;                // twentieths
   double last_draw_ = -1.0;  // [s]
   Elapsed elapsed_;
 };

@@ -21,14 +21,35 @@ std::size_t summarised_body(const Case& c) {
 
 Recorder::Recorder(const Case& c, const Simulation& simulation, const std::filesystem::path& folder)
     : case_(c),
+      summarised_body_(summarised_body(c)),
       flow_direction_(flow_direction(c)),
-      history_(folder / "history.csv", names_of(c.bodies), summarised_body(c)),
+      history_(folder / "history.csv", names_of(c.bodies)),
       row_due_(c.output.history, Schedule::Zero::always),
       snapshots_(c.output, folder),
-      mass_at_start_(simulation.fluid().mass_and_momentum()[0]) {
+      mass_at_start_(simulation.fluid().mass_and_momentum()[0]) {}
+
+void Recorder::start(const Simulation& simulation) {
   const Timed timed(watch_);
-  row_due_.due(simulation.time(), simulation.fluid().coarse_dt());
+  history_.start();
+  snapshots_.start();
+  row_due_.skip(simulation.time(), simulation.fluid().coarse_dt());
   snapshots_.write_due(simulation.fluid(), simulation.bodies());
+}
+
+void Recorder::resume(const Simulation& simulation) {
+  const Timed timed(watch_);
+  history_.resume();
+  snapshots_.resume(simulation.fluid(), simulation.bodies());
+  row_due_.skip(simulation.time(), simulation.fluid().coarse_dt());
+}
+
+void Recorder::transfer_state(Archive& archive) {
+  archive.transfer("history", history_);
+  archive.transfer("snapshots", snapshots_);
+  archive.transfer("mass_at_start", mass_at_start_);
+  archive.transfer("cell_updates_at_row", updates_at_row_);
+  archive.transfer("seconds_at_row", seconds_at_row_);
+  archive.transfer("time_spent", watch_);
 }
 
 void Recorder::record(const Simulation& simulation, bool last) {
@@ -38,7 +59,8 @@ void Recorder::record(const Simulation& simulation, bool last) {
 }
 
 std::optional<double> Recorder::c_d() const {
-  return trace().c_d.empty() ? std::nullopt : std::optional(trace().c_d.back());
+  if (case_.bodies.empty() || trace().c_d.empty()) return std::nullopt;
+  return trace().c_d.back();
 }
 
 void Recorder::write_row(const Simulation& simulation) {

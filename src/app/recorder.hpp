@@ -17,22 +17,31 @@ namespace drogue::app {
 
 class Recorder {
  public:
-  /// Opens the files and records the start. Throws std::runtime_error naming a file that cannot be written.
+  /// To be made before the first step. Every member that writes throws std::runtime_error naming the file.
   Recorder(const Case& c, const Simulation& simulation, const std::filesystem::path& folder);
+
+  /// Opens the files and records the start.
+  void start(const Simulation& simulation);
+  /// Opens the files of the run whose state was restored, and removes what it recorded after that.
+  void resume(const Simulation& simulation);
 
   /// To be called after every step; the `last` one gets a row in any case.
   void record(const Simulation& simulation, bool last);
 
-  const Trace& trace() const { return history_.trace(); }
+  /// The rows so far of the body that is summarised; there must be one.
+  const Trace& trace() const { return history_.traces().at(summarised_body_); }
   std::optional<double> c_d() const;                   ///< of the last row, of the body that is summarised
   double mlups() const { return mlups_; }              ///< million cell updates a second, between the last two rows
   double seconds() const { return watch_.seconds(); }  ///< wall time spent here
+
+  void transfer_state(Archive& archive);
 
  private:
   void write_row(const Simulation& simulation);
   BodyRow measure(CoupledBody& body, const fluid::FluidSolver& fluid) const;
 
   const Case& case_;
+  std::size_t summarised_body_;
   Vec3 flow_direction_;
   History history_;
   Schedule row_due_;

@@ -61,6 +61,14 @@ const std::vector<Definition>& definitions() {
 
 }  // namespace
 
+void Trace::transfer_state(Archive& archive) {
+  archive.transfer("time", time);
+  archive.transfer("c_d", c_d);
+  archive.transfer("centre_dx", centre_dx);
+  archive.transfer("slip_normal", slip_normal);
+  archive.transfer("face_difference", face_difference);
+}
+
 std::optional<double> window_mean(const Column& time, const Column& value, const std::array<double, 2>& window) {
   const double slack = 1e-9 * window[1];
   if (time.empty() || time.back() < window[1] - slack || window[1] <= window[0]) return std::nullopt;

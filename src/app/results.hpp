@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "app/case.hpp"
+#include "core/archive.hpp"
 
 namespace drogue::app {
 
@@ -17,6 +18,8 @@ struct Trace {
   std::vector<double> centre_dx;        ///< [m]
   std::vector<double> slip_normal;      ///< [m/s]
   std::vector<double> face_difference;  ///< [m/s]
+
+  void transfer_state(Archive& archive);
 };
 
 struct Result {

@@ -8,7 +8,9 @@
 #include <exception>
 #include <fstream>
 
+#include "app/case_changes.hpp"
 #include "app/case_reader.hpp"
+#include "app/checkpoints.hpp"
 #include "app/interrupt.hpp"
 #include "app/progress.hpp"
 #include "app/recorder.hpp"
@@ -47,20 +49,42 @@ void write_text(const fs::path& file, const std::string& text) {
   if (!stream) throw InputError(fmt::format("{} cannot be written", file.string()));
 }
 
-/// Steps until `end` [s]; false if interrupted.
-bool step_until(double end, Simulation& simulation, Recorder& recorder, Progress& progress,
-                const Interrupt& interrupt) {
-  const double last = end - 1e-6 * simulation.fluid().coarse_dt();
-  while (simulation.time() < last) {
-    if (interrupt.requested()) return false;
-    simulation.step();
-    recorder.record(simulation, simulation.time() >= last);
-    progress.update(simulation.time(), recorder.mlups(), recorder.c_d());
+/// A folder for a new run, or that of the run that is continued, as it was at its last checkpoint.
+void open_run(bool resume, const Case& c, const fs::path& folder, Simulation& simulation, Recorder& recorder,
+              Checkpoints& checkpoints, Log& log) {
+  if (!resume) prepare_run_folder(folder);
+  log.open(folder / "log.txt", resume);
+  if (resume) checkpoints.restore();
+  write_text(folder / "case.resolved.toml", c.resolved);
+  fs::remove(folder / "summary.json");
+  announce(c, simulation, folder, log);
+  if (resume) {
+    recorder.resume(simulation);
+  } else {
+    recorder.start(simulation);
   }
-  return true;
 }
 
-Summary summarise_run(const Case& c, const Simulation& simulation, const Recorder& recorder, double wall_seconds) {
+/// Steps until `end` [s]; false if interrupted.
+bool step_until(double end, Simulation& simulation, Recorder& recorder, Checkpoints& checkpoints, Progress& progress,
+                const Interrupt& interrupt) {
+  const double last = end - 1e-6 * simulation.fluid().coarse_dt();
+  const auto write_checkpoint = [&] {
+    progress.clear();
+    checkpoints.write();
+  };
+  while (simulation.time() < last && !interrupt.requested()) {
+    simulation.step();
+    recorder.record(simulation, simulation.time() >= last);
+    if (checkpoints.due()) write_checkpoint();
+    progress.update(simulation.time(), recorder.mlups(), recorder.c_d());
+  }
+  write_checkpoint();
+  return simulation.time() >= last;
+}
+
+Summary summarise_run(const Case& c, const Simulation& simulation, const Recorder& recorder, double output_seconds,
+                      double wall_seconds) {
   const amr::Forest& forest = simulation.fluid().forest();
   Summary s;
   s.case_name = c.name;
@@ -75,12 +99,12 @@ Summary summarise_run(const Case& c, const Simulation& simulation, const Recorde
   s.mlups = stepping > 0.0 ? 1e-6 * static_cast<double>(s.cell_updates) / stepping : 0.0;
   s.peak_rss_bytes = peak_rss_bytes();
   for (int level = 0; level < forest.levels(); ++level) s.cells_per_level.push_back(forest.cells(level));
-  const double structure = simulation.structure_seconds(), io = recorder.seconds();
+  const double structure = simulation.structure_seconds();
   s.time_share = {{"fluid", (stepping - coupling) / wall_seconds},
                   {"ib", (coupling - structure) / wall_seconds},
                   {"structure", structure / wall_seconds},
-                  {"io", io / wall_seconds},
-                  {"other", (wall_seconds - stepping - io) / wall_seconds}};
+                  {"io", output_seconds / wall_seconds},
+                  {"other", (wall_seconds - stepping - output_seconds) / wall_seconds}};
   if (!c.bodies.empty()) s.results = summarise(recorder.trace(), c.results);
   s.references = compare(s.results, c.references);
   return s;
@@ -89,13 +113,17 @@ Summary summarise_run(const Case& c, const Simulation& simulation, const Recorde
 }  // namespace
 
 int run_case(const RunOptions& options) {
-  const Elapsed wall;
+  Elapsed wall;
 
   // 1. What is asked for, and whether it may be written.
   const Case c = read_case(options.path, options.overrides);
   const fs::path folder = options.folder.empty() ? fs::path("runs") / c.name : options.folder;
   const double end = options.until.value_or(c.end);
-  refuse_other_run(folder, options.force);
+  if (options.resume) {
+    expect_same_case(folder, c.resolved);
+  } else {
+    refuse_other_run(folder, options.force);
+  }
 
   // 2. The machine: signals before threads, which inherit them.
   const Interrupt interrupt;
@@ -105,37 +133,35 @@ int run_case(const RunOptions& options) {
   Simulation simulation(c, folder);
 
   // 4. The folder of the run.
-  prepare_run_folder(folder);
-  write_text(folder / "case.resolved.toml", c.resolved);
   Log log(options.quiet);
-  log.open(folder / "log.txt");
-  announce(c, simulation, folder, log);
   Recorder recorder(c, simulation, folder);
+  Checkpoints checkpoints(folder, c.output.checkpoint, simulation, recorder, wall, log);
+  open_run(options.resume, c, folder, simulation, recorder, checkpoints, log);
 
   // 5. Time.
   Ending ending = Ending::failed;
   std::string message;
   std::exception_ptr failure;
   try {
-    Progress progress(end, options.quiet);
-    const bool arrived = step_until(end, simulation, recorder, progress, interrupt);
+    Progress progress(simulation.time(), end, options.quiet);
+    const bool arrived = step_until(end, simulation, recorder, checkpoints, progress, interrupt);
     ending = arrived ? Ending::finished : Ending::interrupted;
   } catch (const Diverged& error) {
     ending = Ending::diverged;
-    message = error.what();
-    failure = std::current_exception();
+    message = error.what() + checkpoints.hint();
+    failure = std::make_exception_ptr(Diverged(message));
   } catch (const std::exception& error) {
     message = error.what();
     failure = std::current_exception();
   }
 
   // 6. What came of it.
-  Summary summary = summarise_run(c, simulation, recorder, wall.seconds());
+  Summary summary = summarise_run(c, simulation, recorder, recorder.seconds() + checkpoints.seconds(), wall.seconds());
   summary.ending = ending;
   summary.message = message;
   write_summary(summary, folder / "summary.json");
   print_summary(summary, log);
-  if (ending == Ending::interrupted) log.warn("interrupted at {:.6g} s", simulation.time());
+  if (ending == Ending::interrupted) log.warn("interrupted at {:.6g} s{}", simulation.time(), checkpoints.hint());
   if (failure) std::rethrow_exception(failure);
   return ending == Ending::interrupted ? 130 : 0;
 }

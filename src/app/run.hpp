@@ -16,10 +16,11 @@ struct RunOptions {
   std::optional<int> threads;
   std::optional<double> until;  ///< [s] instead of time.end
   bool force = false, quiet = false;
+  bool resume = false;  ///< go on in `folder` from the newest checkpoint there
 };
 
 /// Returns the exit code: 0, or 130 if interrupted. Throws InputError and Diverged; what was written so far is kept,
-/// and the summary says how the run ended.
+/// checkpoints included, and the summary says how the run ended.
 int run_case(const RunOptions& options);
 
 }  // namespace drogue::app

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "core/error.hpp"
+#include "io/checkpoint.hpp"
 
 namespace drogue::app {
 
@@ -21,7 +22,7 @@ namespace fs = std::filesystem;
 constexpr std::array<std::string_view, 5> files{"case.resolved.toml", "history.csv", "summary.json", "log.txt",
                                                 "frames.csv"};
 constexpr std::array<std::string_view, 3> series_prefixes{"fluid", "canopy", "checkpoint"};
-constexpr std::array<std::string_view, 4> series_suffixes{".hdf", ".vtu", ".series", ".h5"};
+constexpr std::array<std::string_view, 5> series_suffixes{".hdf", ".vtu", ".series", ".h5", ".part"};
 
 bool belongs_to_run(const std::string& name) {
   for (std::string_view file : files) {
@@ -47,8 +48,10 @@ void refuse_other_run(const fs::path& folder, bool force) {
     throw InputError(fmt::format("{} is not a folder; give another with -o", folder.string()));
   }
   if (force || !fs::exists(folder / "case.resolved.toml")) return;
-  throw InputError(fmt::format("{} holds {} run; give --force to replace it, or another folder with -o",
-                               folder.string(), is_finished(folder) ? "a finished" : "an unfinished"));
+  const bool finished = is_finished(folder), can_continue = !io::list_checkpoints(folder).empty();
+  throw InputError(fmt::format("{} holds {} run; give {}--force to replace it, or another folder with -o",
+                               folder.string(), finished ? "a finished" : "an unfinished",
+                               !finished && can_continue ? "--continue to go on with it, " : ""));
 }
 
 void prepare_run_folder(const fs::path& folder) {
@@ -60,6 +63,17 @@ void prepare_run_folder(const fs::path& folder) {
     if (entry.is_regular_file() && belongs_to_run(entry.path().filename().string())) old.push_back(entry.path());
   }
   for (const fs::path& file : old) fs::remove(file);
+}
+
+void keep_lines(const fs::path& file, int count) {
+  std::ifstream stream(file);
+  std::string line;
+  for (int i = 0; i < count; ++i) {
+    if (std::getline(stream, line)) continue;
+    throw InputError(fmt::format("{} has {} lines but had {} at the checkpoint; give --force to start again",
+                                 file.string(), i, count));
+  }
+  fs::resize_file(file, static_cast<std::uintmax_t>(stream.tellg()));
 }
 
 }  // namespace drogue::app

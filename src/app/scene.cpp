@@ -144,6 +144,11 @@ CoupledBody::CoupledBody(const Case& c, const Body& body, fem::HexMesh mesh, con
       centre_point(point_nearest(structure, middle(mesh))),
       centre_reference(structure.mean_position(centre_point)) {}
 
+void CoupledBody::transfer_state(Archive& archive) {
+  archive.transfer("structure", structure);
+  archive.transfer("coupling", coupling);
+}
+
 std::vector<std::unique_ptr<CoupledBody>> make_bodies(const Case& c, std::span<const fem::HexMesh> meshes,
                                                       const amr::Forest& forest) {
   std::vector<std::unique_ptr<CoupledBody>> bodies;

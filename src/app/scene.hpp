@@ -31,6 +31,8 @@ struct CoupledBody {
   CoupledBody(const CoupledBody&) = delete;
   CoupledBody& operator=(const CoupledBody&) = delete;
 
+  void transfer_state(Archive& archive);
+
   const Body& description;
   fem::Structure structure;
   fsi::Coupling coupling;

@@ -15,6 +15,7 @@ class Simulation::TimedHook : public fluid::FineStepHook {
     for (auto& body : bodies_) body->coupling.on_fine_step(step);
   }
   double seconds() const { return watch_.seconds(); }
+  void transfer_state(Archive& archive) { archive.transfer("time_spent", watch_); }
 
  private:
   std::vector<std::unique_ptr<CoupledBody>>& bodies_;
@@ -33,6 +34,13 @@ Simulation::~Simulation() = default;
 void Simulation::step() {
   const Timed timed(stepping_);
   fluid_->step(bodies_.empty() ? nullptr : hook_.get());
+}
+
+void Simulation::transfer_state(Archive& archive) {
+  archive.transfer("fluid", *fluid_);
+  for (auto& body : bodies_) archive.transfer("body_" + body->description.name, *body);
+  archive.transfer("hook", *hook_);
+  archive.transfer("time_spent", stepping_);
 }
 
 double Simulation::structure_seconds() const {

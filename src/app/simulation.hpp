@@ -26,6 +26,9 @@ class Simulation {
   const fluid::FluidSolver& fluid() const { return *fluid_; }
   const std::vector<std::unique_ptr<CoupledBody>>& bodies() const { return bodies_; }
 
+  /// Saves or restores the state between two steps. Throws as Archive does.
+  void transfer_state(Archive& archive);
+
   /// Wall time [s] spent in steps so far, in all and by part.
   double step_seconds() const { return stepping_.seconds(); }
   double structure_seconds() const;

@@ -15,12 +15,18 @@
 
 namespace drogue::app {
 
+/// Every member that writes throws std::runtime_error naming the file.
 class Snapshots {
  public:
   Snapshots(const Output& output, const std::filesystem::path& folder);
 
-  /// Writes what is due. Throws std::runtime_error naming the file.
+  void start();
+  /// Goes on after the state that was restored: what was written later is removed.
+  void resume(const fluid::FluidSolver& fluid, const std::vector<std::unique_ptr<CoupledBody>>& bodies);
+  /// Writes what is due.
   void write_due(const fluid::FluidSolver& fluid, const std::vector<std::unique_ptr<CoupledBody>>& bodies);
+
+  void transfer_state(Archive& archive);
 
  private:
   void write_fluid(const fluid::FluidSolver& fluid);
@@ -31,6 +37,7 @@ class Snapshots {
   std::ofstream frames_;
   Schedule fluid_due_, canopy_due_;
   int fluid_index_ = 0, canopy_index_ = 0;
+  int listed_ = 0;  // in frames.csv
 };
 
 }  // namespace drogue::app

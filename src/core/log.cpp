@@ -18,9 +18,9 @@ Log::Log(bool quiet) : logger_("drogue") {
   logger_.flush_on(spdlog::level::info);
 }
 
-void Log::open(const std::filesystem::path& file) {
+void Log::open(const std::filesystem::path& file, bool append) {
   try {
-    auto sink = std::make_shared<spdlog::sinks::basic_file_sink_st>(file.string(), true);
+    auto sink = std::make_shared<spdlog::sinks::basic_file_sink_st>(file.string(), !append);
     sink->set_pattern("%Y-%m-%d %H:%M:%S  %v");
     logger_.sinks().push_back(sink);
   } catch (const spdlog::spdlog_ex&) {

@@ -14,8 +14,9 @@ class Log {
   /// A quiet log shows warnings only; its file, if there is one, still holds everything.
   explicit Log(bool quiet = false);
 
-  /// From now on lines go to this file as well, which is replaced. Throws InputError if it cannot be written.
-  void open(const std::filesystem::path& file);
+  /// From now on lines go to this file as well, which is replaced unless `append`. Throws InputError if it cannot be
+  /// written.
+  void open(const std::filesystem::path& file, bool append = false);
 
   template <class... T>
   void info(fmt::format_string<T...> text, T&&... values) {

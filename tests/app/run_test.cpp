@@ -6,49 +6,20 @@
 
 #include <csignal>
 #include <fstream>
-#include <nlohmann/json.hpp>
-#include <sstream>
 #include <string>
 #include <vector>
 
 #include "app/case_reader.hpp"
 #include "app/interrupt.hpp"
-#include "case_folder.hpp"
 #include "core/error.hpp"
+#include "run_fixture.hpp"
 
 namespace drogue::app {
 namespace {
 
 namespace fs = std::filesystem;
 
-class Run : public testing::Test {
- protected:
-  Run() {
-    folder_.write("case.toml", plate_case);
-    options_.path = folder_.path();
-    options_.folder = folder_.path() / "run";
-    options_.until = 0.025;  // eight coarse steps
-    options_.quiet = true;
-  }
-  nlohmann::json summary() const { return nlohmann::json::parse(std::ifstream(options_.folder / "summary.json")); }
-  std::vector<std::string> history() const {
-    std::vector<std::string> lines;
-    std::ifstream stream(options_.folder / "history.csv");
-    for (std::string line; std::getline(stream, line);) lines.push_back(line);
-    return lines;
-  }
-  std::string error() {
-    try {
-      run_case(options_);
-    } catch (const InputError& error) {
-      return error.what();
-    }
-    return "no error";
-  }
-
-  CaseFolder folder_;
-  RunOptions options_;
-};
+class Run : public RunTest {};
 
 TEST_F(Run, leaves_history_summary_log_and_resolved_case) {
   options_.overrides = {"output.canopy=0.0125", "output.fluid=1"};
@@ -107,7 +78,10 @@ TEST_F(Run, never_overwrites_without_force) {
   const std::string place = options_.folder.string();
   EXPECT_EQ(error(), place + " holds a finished run; give --force to replace it, or another folder with -o");
   fs::remove(options_.folder / "summary.json");
-  EXPECT_EQ(error(), place + " holds an unfinished run; give --force to replace it, or another folder with -o");
+  EXPECT_EQ(error(),
+            place +
+                " holds an unfinished run; give --continue to go on with it, --force to replace it, or another "
+                "folder with -o");
   std::ofstream(options_.folder / "notes.md") << "mine";
   options_.force = true;
   options_.until = 0.0125;
