@@ -1,14 +1,28 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/case.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 namespace drogue::app {
+
+bool is_any(const Body&) { return true; }
+bool is_elastic(const Body& body) { return std::holds_alternative<ElasticBody>(body.kind); }
+bool is_rigid(const Body& body) { return std::holds_alternative<RigidBody>(body.kind); }
+bool has_wake(const Body& body) {
+  const auto* rigid = std::get_if<RigidBody>(&body.kind);
+  return rigid && rigid->shape.width > 0.0 && rigid->motion.is_still();
+}
 
 int level_of(double coarsest, double spacing) {
   const double level = std::log2(coarsest / spacing);
   const double nearest = std::round(level);
   return nearest >= 0.0 && std::abs(level - nearest) < 1e-9 ? static_cast<int>(nearest) : amr::none;
+}
+
+const Body* summarised_body(const Case& c) {
+  const auto body = std::ranges::find(c.bodies, c.results.body, &Body::name);
+  return body == c.bodies.end() ? nullptr : &*body;
 }
 
 double time_step(const Case& c, int level) {

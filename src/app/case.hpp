@@ -17,6 +17,8 @@
 #include "fem/structure.hpp"
 #include "fluid/specification.hpp"
 #include "fsi/coupling.hpp"
+#include "geometry/surface.hpp"
+#include "ib/rigid_body.hpp"
 
 namespace drogue::app {
 
@@ -38,15 +40,33 @@ struct HoldDescription {
   double damping = 0.0;    ///< [N s/m^4]
 };
 
-struct Body {
-  std::string name;
+struct ElasticBody {
   std::variant<fem::PlateDescription, std::filesystem::path> mesh;
   fem::Material material;
   fem::StructureOptions structure;
   std::vector<HoldDescription> holds;
-  double reference_area = 0.0;  ///< [m^2] of the drag coefficient
   fsi::CouplingOptions coupling;
 };
+
+struct RigidBody {
+  geometry::Shape shape;
+  std::string key;  ///< that gave the shape: "shape" or "surface"
+  ib::RigidMotion motion;
+  ib::RigidBodyOptions coupling;
+};
+
+struct Body {
+  std::string name;
+  double reference_area = 0.0;  ///< [m^2] of force coefficients
+  std::variant<ElasticBody, RigidBody> kind;
+};
+
+/// What columns of the history and results ask of a body.
+bool is_any(const Body& body);
+bool is_elastic(const Body& body);
+bool is_rigid(const Body& body);
+/// Whether it stands still and has a width, by which the length of its wake is told.
+bool has_wake(const Body& body);
 
 /// Intervals between outputs [s]; 0 for none (history: every coarse step).
 struct Output {
@@ -93,6 +113,9 @@ inline constexpr std::array<const char*, 6> face_names{"x_min", "x_max", "y_min"
 
 /// Number of refinement levels between `coarsest` and `spacing`, or `amr::none` if that is no halving of `coarsest`.
 int level_of(double coarsest, double spacing);
+
+/// The body whose results are summarised; null without bodies.
+const Body* summarised_body(const Case& c);
 
 /// Step of a level [s]: the reference velocity crosses `lattice_velocity` cells in it.
 double time_step(const Case& c, int level);

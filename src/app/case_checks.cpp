@@ -81,7 +81,8 @@ void check_grid(const Case& c) {
   }
 }
 
-/// Largest speed [m/s] that enters or starts anywhere; sampled, since it may be any formula.
+/// Largest speed [m/s] that enters or starts anywhere, or of the centre of a body; sampled, since it may be any
+/// formula.
 double largest_speed(const Case& c) {
   constexpr int samples = 5;
   double largest = c.fluid.reference_velocity;
@@ -96,6 +97,13 @@ double largest_speed(const Case& c) {
     consider(c.fluid.initial_velocity, place, 0.0);
     for (const fluid::Face& face : c.fluid.face) {
       for (int k = 0; k <= samples; ++k) consider(face.velocity, place, c.end * k / samples);
+    }
+  }
+  for (const Body& body : c.bodies) {
+    const auto* rigid = std::get_if<RigidBody>(&body.kind);
+    for (double time = 0.0; rigid && time <= c.end; time += time_step(c, 0)) {
+      const Vec3 centre = rigid->motion.pose(time)(rigid->shape.centre);
+      largest = std::max(largest, rigid->motion.twist(time, time_step(c, 0) / 16.0)(centre).norm());
     }
   }
   return largest;
@@ -135,6 +143,25 @@ void check_fluid(const Case& c) {
   }
 }
 
+void check_elastic(const Case& c, const std::string& key, const ElasticBody& body) {
+  const auto [low, high] = body.structure.volume_ratio;
+  if (low < 1.0 && high > 1.0) return;
+  fail(c, key + ".volume_ratio",
+       fmt::format("= {} does not enclose 1, the undeformed state", write_value(body.structure.volume_ratio)));
+}
+
+void check_rigid(const Case& c, const std::string& key, const RigidBody& body) {
+  const int axis = body.shape.span_axis;
+  const double length = c.domain.box.size()[axis];
+  const bool spans = c.domain.periodic[axis] && std::abs(body.shape.span - length) <= 1e-9 * length;
+  if (body.shape.span > 0.0 && !spans) {
+    fail(c, key + ".shape.ends",
+         fmt::format("= \"open\" needs a cylinder as long as the domain, {} m, along a periodic axis, but {} is {} and "
+                     "the length {} m; expected \"capped\" otherwise",
+                     length, axis_names[axis], c.domain.periodic[axis] ? "periodic" : "not periodic", body.shape.span));
+  }
+}
+
 void check_bodies(const Case& c) {
   for (std::size_t i = 0; i < c.bodies.size(); ++i) {
     const Body& body = c.bodies[i];
@@ -148,11 +175,8 @@ void check_bodies(const Case& c) {
     for (std::size_t j = 0; j < i; ++j) {
       if (c.bodies[j].name == body.name) fail(c, key + ".name", "is given to two bodies");
     }
-    const auto [low, high] = body.structure.volume_ratio;
-    if (low >= 1.0 || high <= 1.0) {
-      fail(c, key + ".volume_ratio",
-           fmt::format("= {} does not enclose 1, the undeformed state", write_value(body.structure.volume_ratio)));
-    }
+    if (const auto* elastic = std::get_if<ElasticBody>(&body.kind)) check_elastic(c, key, *elastic);
+    if (const auto* rigid = std::get_if<RigidBody>(&body.kind)) check_rigid(c, key, *rigid);
   }
 }
 
@@ -169,7 +193,8 @@ void check_results(const Case& c) {
     fail(c, "results.body",
          fmt::format("= \"{}\" is not the name of a body{}", c.results.body, did_you_mean(c.results.body, bodies)));
   }
-  const std::vector<std::string> names = result_names();
+  const Body* body = summarised_body(c);
+  const std::vector<std::string> names = body ? result_names(*body) : std::vector<std::string>{};
   for (const Reference& reference : c.references) {
     const std::string key = "reference." + reference.name;
     if (std::ranges::find(names, reference.name) == names.end()) {
@@ -196,28 +221,30 @@ void check_case(const Case& c) {
   check_results(c);
 }
 
-void check_body_in_grid(const Case& c, const Body& body, const fem::HexMesh& mesh, const amr::Forest& forest) {
-  const std::string key = "body." + body.name + ".mesh";
-  for (const Vec3& node : mesh.nodes) {
-    if (c.domain.box.contains(node)) continue;
-    fail(c, key, fmt::format("lies outside the domain: its node at {} m", write_value(node)));
+void check_body_in_grid(const Case& c, const Body& body, std::span<const Vec3> points, const amr::Forest& forest) {
+  const auto* rigid = std::get_if<RigidBody>(&body.kind);
+  const std::string key = fmt::format("body.{}.{}", body.name, rigid ? rigid->key : "mesh");
+  const char* point_name = rigid ? "point" : "node";
+  for (const Vec3& point : points) {
+    if (forest.locate(point)) continue;
+    fail(c, key, fmt::format("lies outside the domain: its {} at {} m", point_name, write_value(point)));
   }
   const int finest = level_of(c.domain.coarsest, c.finest);
-  for (const Vec3& node : mesh.nodes) {
+  for (const Vec3& point : points) {
     for (int corner = 0; corner < 8; ++corner) {
       const Vec3 sign(corner & 1 ? 1 : -1, corner & 2 ? 1 : -1, corner & 4 ? 1 : -1);
-      const auto place = forest.locate(node + delta_margin * c.finest * sign);
+      const auto place = forest.locate(point + delta_margin * c.finest * sign);
       if (!place) {
         fail(c, key,
-             fmt::format("comes within {} cells of a side of the domain: its node at {} m", delta_margin,
-                         write_value(node)));
+             fmt::format("comes within {} cells of a side of the domain: its {} at {} m", delta_margin, point_name,
+                         write_value(point)));
       }
       const int level = forest.block(place->block).level;
       if (level == finest) continue;
       fail(c, key,
-           fmt::format("does not lie in cells of grid.finest = {} m with {} cells around it: its node at {} m meets "
+           fmt::format("does not lie in cells of grid.finest = {} m with {} cells around it: its {} at {} m meets "
                        "cells of {} m; widen a grid.region",
-                       c.finest, delta_margin, write_value(node), forest.spacing(level)));
+                       c.finest, delta_margin, point_name, write_value(point), forest.spacing(level)));
     }
   }
 }

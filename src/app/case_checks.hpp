@@ -2,6 +2,7 @@
 // What must hold between the values of a case for it to be run. Every function throws InputError.
 #pragma once
 
+#include <span>
 #include <string>
 
 #include "app/case.hpp"
@@ -11,8 +12,9 @@ namespace drogue::app {
 /// Everything that can be told without meshes and grid.
 void check_case(const Case& c);
 
-/// The body must lie in the domain, and in finest-level blocks with the delta function's margin.
-void check_body_in_grid(const Case& c, const Body& body, const fem::HexMesh& mesh, const amr::Forest& forest);
+/// The body, given by its nodes or by points of its surface [m], must lie in the domain, and in finest-level blocks
+/// with the delta function's margin.
+void check_body_in_grid(const Case& c, const Body& body, std::span<const Vec3> points, const amr::Forest& forest);
 
 /// Throws InputError "file:line: key <message>".
 [[noreturn]] void fail(const Case& c, const std::string& key, const std::string& message);

@@ -2,7 +2,6 @@
 #include <fmt/format.h>
 
 #include <cmath>
-#include <numeric>
 
 #include "app/case_reader.hpp"
 #include "app/inspect.hpp"
@@ -51,38 +50,18 @@ std::string cost_text(const Case& c, const amr::Forest& forest) {
       memory / std::pow(1024.0, 3));
 }
 
-double sum(std::span<const double> values) { return std::accumulate(values.begin(), values.end(), 0.0); }
-
-std::string body_text(const Case& c, const CoupledBody& body, int finest) {
-  const fem::Structure& s = body.structure;
-  const double stable = s.stable_step();
-  std::string text = fmt::format(
-      "body    {}: {} nodes, {} elements, {} points on the fluid; mass {:.4g} kg, {:.4g} kg with the fluid it drags\n"
-      "        stable step {:.3g} s, {:.0f} sub-steps in a fine step of {:.3g} s\n",
-      body.description.name, s.mesh().nodes.size(), s.mesh().elements.size(), s.inertia().point.size(),
-      sum(s.own_mass()), sum(s.inertia().mass), stable, std::ceil(time_step(c, finest) / stable), time_step(c, finest));
-  for (const HoldDescription& hold : body.description.holds) {
-    const std::vector<int> nodes = held_nodes(c, body.description, hold, s.mesh());
-    double volume = 0.0;
-    for (int node : nodes) volume += s.volume()[node];
-    text += fmt::format("        holds {}: {} nodes, {}\n", hold.nodes, nodes.size(),
-                        hold.rigid ? "rigid" : fmt::format("{:.4g} N/m in all", hold.stiffness * volume));
-  }
-  return text;
-}
-
 }  // namespace
 
 std::string check_report(const std::filesystem::path& path, const std::vector<std::string>& overrides) {
   const Case c = read_case(path, overrides);
   const auto folder = std::filesystem::temp_directory_path() / fmt::format("drogue-check-{}", c.name);
-  const std::vector<fem::HexMesh> meshes = load_meshes(c, folder);
+  const Meshes meshes = load_meshes(c, folder);
   const amr::Forest forest = make_forest(c, meshes);
   const auto bodies = make_bodies(c, meshes, forest);
 
   std::string text = fmt::format("{}\n\n", c.title.empty() ? c.name : c.title);
   text += fluid_text(c) + grid_text(c, forest) + cost_text(c, forest);
-  for (const auto& body : bodies) text += body_text(c, *body, forest.finest());
+  for (const auto& body : bodies) text += body->report(c);
   return text + fmt::format("{} is in order\n", c.file.string());
 }
 

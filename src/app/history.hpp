@@ -16,17 +16,21 @@ namespace drogue::app {
 
 /// What a row tells of a body. Forces are means since the row before, the rest is at the row's time.
 struct BodyRow {
-  Vec3 force = Vec3::Zero();  ///< by the fluid [N]
+  Vec3 force = Vec3::Zero();   ///< by the fluid [N]
+  Vec3 torque = Vec3::Zero();  ///< by the fluid about the centre [N m]; of a rigid body
   double c_d = 0.0;
-  Vec3 centre = Vec3::Zero();                         ///< displacement [m]
+  Vec3 c_l = Vec3::Zero();                            ///< what is across the flow
+  Vec3 centre = Vec3::Zero();                         ///< displacement of an elastic body, place of a rigid one [m]
   Vec3 reaction = Vec3::Zero();                       ///< of the holds on the body [N]
   double elastic_energy = 0.0, kinetic_energy = 0.0;  ///< [J]
   std::array<double, 2> face_difference{};  ///< velocity of one face less the other's: along normal, in full [m/s]
   double thickness_stretch = 1.0;
   std::array<double, 2> plane_stress{1.0, 0.0};  ///< fem::Structure::plane_stress_comparison
   std::array<double, 2> volume_ratio{1.0, 1.0};  ///< smallest and largest J
-  std::array<double, 2> slip{};                  ///< of the fluid past the body: along normal, rms [m/s]
+  double slip_normal = 0.0;                      ///< of the fluid past the body, mean along the normal [m/s]
+  double slip_rms = 0.0, slip_max = 0.0;         ///< [m/s]
   int substeps = 0;
+  double wake_length = 0.0;  ///< in widths of the body
 };
 
 struct Row {
@@ -41,7 +45,8 @@ struct Row {
 /// Every member that writes throws std::runtime_error naming the file.
 class History {
  public:
-  History(const std::filesystem::path& file, const std::vector<std::string>& bodies);
+  /// `bodies` outlive it.
+  History(const std::filesystem::path& file, const std::vector<Body>& bodies);
 
   void start();   ///< writes the header
   void resume();  ///< goes on after the rows of the state that was restored; later ones are removed
@@ -56,7 +61,7 @@ class History {
 
   std::filesystem::path file_;
   std::ofstream stream_;
-  std::vector<std::string> bodies_;
+  const std::vector<Body>& bodies_;
   std::vector<Trace> traces_;
   int rows_ = 0;
 };

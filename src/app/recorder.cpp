@@ -1,29 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/recorder.hpp"
 
-#include <algorithm>
-
 namespace drogue::app {
-
-namespace {
-
-std::vector<std::string> names_of(const std::vector<Body>& bodies) {
-  std::vector<std::string> names;
-  for (const Body& body : bodies) names.push_back(body.name);
-  return names;
-}
-
-std::size_t summarised_body(const Case& c) {
-  return static_cast<std::size_t>(std::ranges::find(c.bodies, c.results.body, &Body::name) - c.bodies.begin());
-}
-
-}  // namespace
 
 Recorder::Recorder(const Case& c, const Simulation& simulation, const std::filesystem::path& folder)
     : case_(c),
-      summarised_body_(summarised_body(c)),
+      summarised_body_(c.bodies.empty() ? 0 : summarised_body(c) - c.bodies.data()),
       flow_direction_(flow_direction(c)),
-      history_(folder / "history.csv", names_of(c.bodies)),
+      history_(folder / "history.csv", c.bodies),
       row_due_(c.output.history, Schedule::Zero::always),
       snapshots_(c.output, folder),
       mass_at_start_(simulation.fluid().mass_and_momentum()[0]) {}
@@ -72,7 +56,10 @@ void Recorder::write_row(const Simulation& simulation) {
 
   Row row;
   row.time = fluid.time();
-  for (const auto& body : simulation.bodies()) row.bodies.push_back(measure(*body, fluid));
+  for (const auto& body : simulation.bodies()) {
+    row.bodies.push_back(body->measure(fluid));
+    add_coefficients(body->description, row.bodies.back());
+  }
   row.max_mach = fluid.statistics().max_mach;
   row.mass_drift = fluid.mass_and_momentum()[0] / mass_at_start_ - 1.0;
   row.cell_updates = updates;
@@ -80,24 +67,11 @@ void Recorder::write_row(const Simulation& simulation) {
   history_.append(row);
 }
 
-BodyRow Recorder::measure(CoupledBody& body, const fluid::FluidSolver& fluid) const {
-  const fem::Structure& structure = body.structure;
+void Recorder::add_coefficients(const Body& body, BodyRow& row) const {
   const double speed = case_.fluid.reference_velocity;
-  const double dynamic_pressure = 0.5 * case_.fluid.density * speed * speed;
-  BodyRow row;
-  row.force = body.coupling.take_mean_force();
-  row.c_d = row.force.dot(flow_direction_) / (dynamic_pressure * body.description.reference_area);
-  row.centre = structure.mean_position(body.centre_point) - body.centre_reference;
-  row.reaction = structure.reaction();
-  row.elastic_energy = structure.elastic_energy();
-  row.kinetic_energy = structure.kinetic_energy();
-  row.face_difference = structure.face_velocity_difference();
-  row.thickness_stretch = structure.mean_thickness_stretch();
-  row.plane_stress = structure.plane_stress_comparison();
-  row.volume_ratio = structure.volume_ratio_range();
-  row.slip = body.coupling.slip(fluid.fine_velocity());
-  row.substeps = structure.substeps();
-  return row;
+  const Vec3 c = row.force / (0.5 * case_.fluid.density * speed * speed * body.reference_area);
+  row.c_d = c.dot(flow_direction_);
+  row.c_l = c - row.c_d * flow_direction_;
 }
 
 }  // namespace drogue::app

@@ -38,7 +38,7 @@ class Recorder {
 
  private:
   void write_row(const Simulation& simulation);
-  BodyRow measure(CoupledBody& body, const fluid::FluidSolver& fluid) const;
+  void add_coefficients(const Body& body, BodyRow& row) const;
 
   const Case& case_;
   std::size_t summarised_body_;

@@ -35,12 +35,15 @@ Number largest(const Column& value) {
   return value.empty() ? std::nullopt : Number(*std::max_element(value.begin(), value.end()));
 }
 
-/// The one list of results.
+Number last(const Column& value) { return value.empty() ? std::nullopt : Number(value.back()); }
+
 struct Definition {
   const char *name, *unit;
   std::function<Number(const Trace&, const ResultOptions&)> value;
+  bool (*applies)(const Body&) = is_any;
 };
 
+/// The one list of results.
 const std::vector<Definition>& definitions() {
   using T = const Trace&;
   using O = const ResultOptions&;
@@ -49,12 +52,16 @@ const std::vector<Definition>& definitions() {
       {"cd_peak_time", "s", [](T t, O o) { return peak_time(t.time, t.c_d, o.peak_from); }},
       {"cd_stable", "", [](T t, O o) { return window_mean(t.time, t.c_d, o.stable_window); }},
       {"cd_stable_drift", "", [](T t, O o) { return window_drift(t.time, t.c_d, o.stable_window); }},
-      {"centre_dx_peak", "m", [](T t, O o) { return peak(t.time, t.centre_dx, o.peak_from); }},
-      {"centre_dx_peak_time", "s", [](T t, O o) { return peak_time(t.time, t.centre_dx, o.peak_from); }},
-      {"centre_dx_stable", "m", [](T t, O o) { return window_mean(t.time, t.centre_dx, o.stable_window); }},
-      {"centre_dx_stable_drift", "", [](T t, O o) { return window_drift(t.time, t.centre_dx, o.stable_window); }},
-      {"slip_normal_stable", "m/s", [](T t, O o) { return window_mean(t.time, t.slip_normal, o.stable_window); }},
-      {"face_difference_max", "m/s", [](T t, O) { return largest(t.face_difference); }},
+      {"centre_dx_peak", "m", [](T t, O o) { return peak(t.time, t.centre_dx, o.peak_from); }, is_elastic},
+      {"centre_dx_peak_time", "s", [](T t, O o) { return peak_time(t.time, t.centre_dx, o.peak_from); }, is_elastic},
+      {"centre_dx_stable", "m", [](T t, O o) { return window_mean(t.time, t.centre_dx, o.stable_window); }, is_elastic},
+      {"centre_dx_stable_drift", "", [](T t, O o) { return window_drift(t.time, t.centre_dx, o.stable_window); },
+       is_elastic},
+      {"slip_normal_stable", "m/s", [](T t, O o) { return window_mean(t.time, t.slip_normal, o.stable_window); },
+       is_elastic},
+      {"face_difference_max", "m/s", [](T t, O) { return largest(t.face_difference); }, is_elastic},
+      {"slip_rms_stable", "m/s", [](T t, O o) { return window_mean(t.time, t.slip_rms, o.stable_window); }, is_rigid},
+      {"wake_length", "", [](T t, O) { return last(t.wake_length); }, has_wake},
   };
   return list;
 }
@@ -67,6 +74,8 @@ void Trace::transfer_state(Archive& archive) {
   archive.transfer("centre_dx", centre_dx);
   archive.transfer("slip_normal", slip_normal);
   archive.transfer("face_difference", face_difference);
+  archive.transfer("slip_rms", slip_rms);
+  archive.transfer("wake_length", wake_length);
 }
 
 std::optional<double> window_mean(const Column& time, const Column& value, const std::array<double, 2>& window) {
@@ -91,9 +100,11 @@ std::optional<double> window_drift(const Column& time, const Column& value, cons
   return (*second - *first) / *whole;
 }
 
-std::vector<Result> summarise(const Trace& trace, const ResultOptions& options) {
+std::vector<Result> summarise(const Trace& trace, const Body& body, const ResultOptions& options) {
   std::vector<Result> results;
-  for (const Definition& d : definitions()) results.push_back({d.name, d.unit, d.value(trace, options)});
+  for (const Definition& d : definitions()) {
+    if (d.applies(body)) results.push_back({d.name, d.unit, d.value(trace, options)});
+  }
   return results;
 }
 
@@ -113,9 +124,11 @@ std::vector<Comparison> compare(const std::vector<Result>& results, const std::v
   return comparisons;
 }
 
-std::vector<std::string> result_names() {
+std::vector<std::string> result_names(const Body& body) {
   std::vector<std::string> names;
-  for (const Definition& d : definitions()) names.emplace_back(d.name);
+  for (const Definition& d : definitions()) {
+    if (d.applies(body)) names.emplace_back(d.name);
+  }
   return names;
 }
 

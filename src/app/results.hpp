@@ -18,6 +18,8 @@ struct Trace {
   std::vector<double> centre_dx;        ///< [m]
   std::vector<double> slip_normal;      ///< [m/s]
   std::vector<double> face_difference;  ///< [m/s]
+  std::vector<double> slip_rms;         ///< [m/s]
+  std::vector<double> wake_length;      ///< in widths of the body
 
   void transfer_state(Archive& archive);
 };
@@ -42,10 +44,11 @@ std::optional<double> window_mean(const std::vector<double>& time, const std::ve
 std::optional<double> window_drift(const std::vector<double>& time, const std::vector<double>& value,
                                    const std::array<double, 2>& window);
 
-std::vector<Result> summarise(const Trace& trace, const ResultOptions& options);
+/// The results that such a body has.
+std::vector<Result> summarise(const Trace& trace, const Body& body, const ResultOptions& options);
 std::vector<Comparison> compare(const std::vector<Result>& results, const std::vector<Reference>& references);
 
-/// Names of all results, which references may name.
-std::vector<std::string> result_names();
+/// Names of the results that such a body has, which references may name.
+std::vector<std::string> result_names(const Body& body);
 
 }  // namespace drogue::app

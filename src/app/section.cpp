@@ -62,6 +62,11 @@ Section::Section(const Section& parent, const toml::table* table, const Place& p
       path_(place.path),
       schema_(place.schema),
       header_(place.header) {
+  const auto described = std::ranges::find(record_->sections, schema_, &SectionRecord::path);
+  if (describing() && described != record_->sections.end()) {
+    own_ = &*described;
+    return;
+  }
   own_ = &record_->sections.emplace_back();
   own_->path = schema_;
   own_->header = place.is_element ? fmt::format("[[{}]]", header_) : fmt::format("[{}]", header_);
@@ -104,6 +109,8 @@ std::optional<T> Section::look_up(const std::string& name, const Key<T>& key, co
     }
   }
   if (required && !value) fail(name, fmt::format("is missing; expected {}: {}", wanted, key.doc));
+  const bool described = std::ranges::find(own_->keys, name, &KeyRecord::name) != own_->keys.end();
+  if (describing() && described) return value;
   own_->keys.push_back({.name = name,
                         .expected = wanted,
                         .unit = key.unit,
@@ -197,6 +204,7 @@ template Pair Section::get(const std::string&, const Key<Pair>&);
 template Vec3 Section::get(const std::string&, const Key<Vec3>&);
 template Index3 Section::get(const std::string&, const Key<Index3>&);
 template Formulas Section::get(const std::string&, const Key<Formulas>&);
+template Expression Section::get(const std::string&, const Key<Expression>&);
 template std::string Section::get(const std::string&, const Key<std::string>&);
 template std::filesystem::path Section::get(const std::string&, const Key<std::filesystem::path>&);
 template std::optional<double> Section::find(const std::string&, const Key<double>&);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // One table of a case file while it is read. A key is declared where it is read, with unit, default, range and meaning,
 // and nowhere else: the same call checks and returns its value, puts it into the resolved case, and, when the reader is
-// run over nothing at all ("describing"), into the list of all keys.
+// run over nothing at all ("describing"), into the list of all keys; a key that several readers share is listed once.
 #pragma once
 
 #include <functional>

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/simulation.hpp"
 
+#include "app/scene.hpp"
 #include "lbm/solver.hpp"
 
 namespace drogue::app {
@@ -12,7 +13,7 @@ class Simulation::TimedHook : public fluid::FineStepHook {
 
   void on_fine_step(fluid::FineStep& step) override {
     const Timed timed(watch_);
-    for (auto& body : bodies_) body->coupling.on_fine_step(step);
+    for (auto& body : bodies_) body->on_fine_step(step);
   }
   double seconds() const { return watch_.seconds(); }
   void transfer_state(Archive& archive) { archive.transfer("time_spent", watch_); }
@@ -23,7 +24,7 @@ class Simulation::TimedHook : public fluid::FineStepHook {
 };
 
 Simulation::Simulation(const Case& c, const std::filesystem::path& folder) {
-  const std::vector<fem::HexMesh> meshes = load_meshes(c, folder);
+  const Meshes meshes = load_meshes(c, folder);
   fluid_ = lbm::make_solver(make_forest(c, meshes), c.fluid);
   bodies_ = make_bodies(c, meshes, fluid_->forest());
   hook_ = std::make_unique<TimedHook>(bodies_);
@@ -45,7 +46,7 @@ void Simulation::transfer_state(Archive& archive) {
 
 double Simulation::structure_seconds() const {
   double seconds = 0.0;
-  for (const auto& body : bodies_) seconds += body->coupling.structure_seconds();
+  for (const auto& body : bodies_) seconds += body->structure_seconds();
   return seconds;
 }
 

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "app/case.hpp"
-#include "app/scene.hpp"
+#include "app/coupled_body.hpp"
 #include "core/stopwatch.hpp"
 #include "fluid/fluid_solver.hpp"
 

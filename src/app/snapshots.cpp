@@ -6,7 +6,6 @@
 #include <stdexcept>
 
 #include "app/run_folder.hpp"
-#include "io/canopy.hpp"
 #include "io/fluid_snapshot.hpp"
 #include "io/series.hpp"
 
@@ -64,8 +63,7 @@ void Snapshots::write_bodies(double time, const std::vector<std::unique_ptr<Coup
   for (const auto& body : bodies) {
     const std::string kind = kind_of(*body, bodies.size());
     const std::string file = fmt::format("{}_{:06d}.vtu", kind, canopy_index_);
-    const fem::Structure& structure = body->structure;
-    io::write_canopy(folder_ / file, structure.mesh(), structure.position(), structure.velocity(), {}, time);
+    body->write(folder_ / file, time);
     list(kind, canopy_index_, time, series_of(kind), file);
   }
   ++canopy_index_;

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "app/case.hpp"
-#include "app/scene.hpp"
+#include "app/coupled_body.hpp"
 #include "app/schedule.hpp"
 #include "fluid/fluid_solver.hpp"
 

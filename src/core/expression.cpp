@@ -53,6 +53,7 @@ Expression::Expression(const std::string& formula) : text_(formula) {
     constant_ = parser->parser.Eval();
     const mu::varmap_type& used = parser->parser.GetUsedVar();
     depends_on_time_ = used.contains("t");
+    depends_on_place_ = used.contains("x") || used.contains("y") || used.contains("z");
     if (!used.empty()) parser_ = std::move(parser);
   } catch (const mu::ParserError& error) {
     throw InputError(fmt::format("\"{}\" {}", formula, reason(error)));
@@ -64,6 +65,7 @@ Expression::Expression(const Expression& other)
     : text_(other.text_),
       constant_(other.constant_),
       depends_on_time_(other.depends_on_time_),
+      depends_on_place_(other.depends_on_place_),
       parser_(other.parser_ ? std::make_unique<Parser>(other.text_) : nullptr) {}
 
 Expression& Expression::operator=(const Expression& other) {

@@ -24,13 +24,14 @@ class Expression {
   double operator()(const Vec3& position, double time) const;
   bool is_constant() const { return parser_ == nullptr; }   ///< depends on neither place nor time
   bool depends_on_time() const { return depends_on_time_; }
+  bool depends_on_place() const { return depends_on_place_; }
   const std::string& text() const { return text_; }
 
  private:
   struct Parser;
   std::string text_;
   double constant_ = 0.0;
-  bool depends_on_time_ = false;
+  bool depends_on_time_ = false, depends_on_place_ = false;
   std::unique_ptr<Parser> parser_;
 };
 

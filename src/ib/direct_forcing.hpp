@@ -7,7 +7,6 @@
 // (2007) 066709).
 #pragma once
 
-#include <array>
 #include <functional>
 #include <span>
 #include <string>
@@ -18,13 +17,19 @@
 
 namespace drogue::ib {
 
-/// Fills the markers' positions [m] and velocities [m/s] at `time` [s].
-using Motion = std::function<void(double time, std::span<Vec3> position, std::span<Vec3> velocity)>;
+/// Fills the markers' positions [m] and velocities [m/s] at the end of a step.
+using Motion = std::function<void(const fluid::FineStep& step, std::span<Vec3> position, std::span<Vec3> velocity)>;
 
 struct DirectForcingOptions {
   Delta delta = Delta::peskin4;
   int iterations = 1;  ///< passes of forcing per step
   std::string body;    ///< name for messages
+};
+
+/// Fluid minus marker velocity [m/s].
+struct Slip {
+  double rms = 0.0;  ///< weighted with the dragged mass
+  double max = 0.0;
 };
 
 class DirectForcing : public fluid::FineStepHook {
@@ -36,20 +41,19 @@ class DirectForcing : public fluid::FineStepHook {
   void on_fine_step(fluid::FineStep& step) override;
 
   int size() const { return markers_.size(); }
-  std::span<const Vec3> position() const { return position_; }  ///< [m] at the last step
-  std::span<const Vec3> velocity() const { return velocity_; }  ///< [m/s] at the last step
-  const Vec3& force() const { return force_on_body_; }          ///< by the fluid, over the last step [N]
-  /// Root mean square of fluid minus marker velocity [m/s], weighted with the dragged mass; `u` is the velocity after
-  /// forcing.
-  double slip(const fluid::VelocityView& u) const;
+  std::span<const Vec3> position() const { return position_; }          ///< [m] at the last step
+  std::span<const Vec3> velocity() const { return velocity_; }          ///< [m/s] at the last step
+  std::span<const Vec3> marker_force() const { return marker_force_; }  ///< by the fluid, over the last step [N]
+  Vec3 force() const;                                                   ///< their sum [N]
+  /// `u` is the velocity after forcing. Nothing before the first step.
+  Slip slip(const fluid::VelocityView& u) const;
 
  private:
   DirectForcingOptions options_;
   std::vector<double> dragged_mass_;
   Motion motion_;
   Markers markers_;
-  std::vector<Vec3> position_, velocity_, force_;
-  Vec3 force_on_body_ = Vec3::Zero();
+  std::vector<Vec3> position_, velocity_, force_, marker_force_;
 };
 
 }  // namespace drogue::ib

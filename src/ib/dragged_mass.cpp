@@ -94,4 +94,16 @@ std::vector<double> mass_dragged_by_cloud(Delta delta, std::span<const Vec3> pos
   return mass;
 }
 
+std::vector<double> mass_dragged(const Markers& markers, const amr::Forest& forest, std::span<const double> volume,
+                                 double density) {
+  std::vector<Vec3> field(volume.size());
+  for (std::size_t l = 0; l < field.size(); ++l) field[l] = Vec3(volume[l], 0.0, 0.0);
+  fluid::ForceField indicator(forest);
+  markers.spread(field, indicator);
+  markers.interpolate(indicator, field);
+  std::vector<double> mass(volume.size());
+  for (std::size_t l = 0; l < mass.size(); ++l) mass[l] = density * volume[l] / field[l].x();
+  return mass;
+}
+
 }  // namespace drogue::ib

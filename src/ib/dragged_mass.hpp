@@ -15,6 +15,7 @@
 
 #include "core/types.hpp"
 #include "ib/delta.hpp"
+#include "ib/markers.hpp"
 
 namespace drogue::ib {
 
@@ -27,5 +28,10 @@ std::vector<double> mass_dragged_by_sheet(Delta delta, std::span<const double> a
 /// its plane faces, the value above for a single layer, and rho (dx / sum_phi_squared)^3 for a marker on its own.
 std::vector<double> mass_dragged_by_cloud(Delta delta, std::span<const Vec3> position, std::span<const double> volume,
                                           double spacing, double density);
+
+/// The same for markers that stand on the grid, with K as it is there: exact in the place they are in, and across
+/// periodic sides.
+std::vector<double> mass_dragged(const Markers& markers, const amr::Forest& forest, std::span<const double> volume,
+                                 double density);
 
 }  // namespace drogue::ib

@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <array>
 #include <cstdint>
 #include <cstring>
 #include <numeric>
@@ -14,7 +15,9 @@
 namespace drogue::io {
 namespace {
 
-constexpr std::uint8_t vtk_hexahedron = 12;
+/// VTK's number of the cell that so many points make.
+template <std::size_t N>
+constexpr std::uint8_t vtk_cell = N == 8 ? 12 : 5;
 
 template <class T>
 constexpr std::string_view vtk_type = "";
@@ -69,22 +72,18 @@ void check_length(std::size_t length, std::size_t expected, std::string_view wha
   if (length != expected) throw std::invalid_argument(fmt::format("{} values of {} for {}", length, what, expected));
 }
 
-}  // namespace
+using Arrays = std::map<std::string, std::span<const Vec3>>;
 
-void write_canopy(const std::filesystem::path& file, const fem::HexMesh& mesh, std::span<const Vec3> position,
-                  std::span<const Vec3> velocity, const std::map<std::string, std::vector<double>>& cell_data,
-                  std::optional<double> time) {
-  const std::size_t nodes = mesh.nodes.size(), elements = mesh.elements.size();
-  check_length(position.size(), nodes, "position");
-  check_length(velocity.size(), nodes, "velocity");
-
-  std::vector<Vec3> displacement(nodes);
-  for (std::size_t n = 0; n < nodes; ++n) displacement[n] = position[n] - mesh.nodes[n];
+/// Cells of N points each, with point data and cell data.
+template <std::size_t N>
+void write(const std::filesystem::path& file, const std::vector<std::array<int, N>>& cells,
+           std::span<const Vec3> position, const Arrays& point_data,
+           const std::map<std::string, std::vector<double>>& cell_data, std::optional<double> time) {
   std::vector<std::int32_t> connectivity;
-  for (const auto& element : mesh.elements) connectivity.insert(connectivity.end(), element.begin(), element.end());
-  std::vector<std::int32_t> offsets(elements);
-  for (std::size_t e = 0; e < elements; ++e) offsets[e] = static_cast<std::int32_t>(8 * (e + 1));
-  const std::vector<std::uint8_t> types(elements, vtk_hexahedron);
+  for (const auto& cell : cells) connectivity.insert(connectivity.end(), cell.begin(), cell.end());
+  std::vector<std::int32_t> offsets(cells.size());
+  for (std::size_t e = 0; e < cells.size(); ++e) offsets[e] = static_cast<std::int32_t>(N * (e + 1));
+  const std::vector<std::uint8_t> types(cells.size(), vtk_cell<N>);
 
   AppendedArrays arrays;
   std::string xml =
@@ -95,14 +94,18 @@ void write_canopy(const std::filesystem::path& file, const fem::HexMesh& mesh, s
     const std::span<const double> value(&*time, 1);
     xml += fmt::format("<FieldData>{}</FieldData>\n", arrays.add("TimeValue", 1, value, " NumberOfTuples=\"1\""));
   }
-  xml += fmt::format("<Piece NumberOfPoints=\"{}\" NumberOfCells=\"{}\">\n", nodes, elements);
+  xml += fmt::format("<Piece NumberOfPoints=\"{}\" NumberOfCells=\"{}\">\n", position.size(), cells.size());
   xml += fmt::format("<Points>{}</Points>\n", arrays.add("Points", position));
   xml += "<Cells>" + arrays.add<std::int32_t>("connectivity", 1, connectivity);
   xml += arrays.add<std::int32_t>("offsets", 1, offsets) + arrays.add<std::uint8_t>("types", 1, types) + "</Cells>\n";
-  xml += "<PointData Vectors=\"Displacement\">" + arrays.add("Displacement", displacement);
-  xml += arrays.add("Velocity", velocity) + "</PointData>\n<CellData>";
+  xml += "<PointData Vectors=\"Displacement\">";
+  for (const auto& [name, vectors] : point_data) {
+    check_length(vectors.size(), position.size(), name);
+    xml += arrays.add(name, vectors);
+  }
+  xml += "</PointData>\n<CellData>";
   for (const auto& [name, values] : cell_data) {
-    check_length(values.size(), elements, name);
+    check_length(values.size(), cells.size(), name);
     xml += arrays.add<double>(escaped(name), 1, values);
   }
   xml += "</CellData>\n</Piece>\n</UnstructuredGrid>\n<AppendedData encoding=\"raw\">\n_";
@@ -112,6 +115,28 @@ void write_canopy(const std::filesystem::path& file, const fem::HexMesh& mesh, s
   stream.write(arrays.bytes());
   stream.write("\n</AppendedData>\n</VTKFile>\n");
   stream.commit();
+}
+
+std::vector<Vec3> difference(std::span<const Vec3> now, std::span<const Vec3> before) {
+  check_length(now.size(), before.size(), "position");
+  std::vector<Vec3> vectors(now.size());
+  for (std::size_t n = 0; n < now.size(); ++n) vectors[n] = now[n] - before[n];
+  return vectors;
+}
+
+}  // namespace
+
+void write_canopy(const std::filesystem::path& file, const fem::HexMesh& mesh, std::span<const Vec3> position,
+                  std::span<const Vec3> velocity, const std::map<std::string, std::vector<double>>& cell_data,
+                  std::optional<double> time) {
+  const std::vector<Vec3> displacement = difference(position, mesh.nodes);
+  write(file, mesh.elements, position, {{"Displacement", displacement}, {"Velocity", velocity}}, cell_data, time);
+}
+
+void write_surface(const std::filesystem::path& file, const geometry::TriangleMesh& mesh,
+                   std::span<const Vec3> position, double time) {
+  const std::vector<Vec3> displacement = difference(position, mesh.points);
+  write(file, mesh.triangles, position, {{"Displacement", displacement}}, {}, time);
 }
 
 }  // namespace drogue::io

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The structure as VTK's XML UnstructuredGrid (.vtu), binary appended, as ParaView and VTK 9 read it.
+// Bodies as VTK's XML UnstructuredGrid (.vtu), binary appended, as ParaView and VTK 9 read it.
 #pragma once
 
 #include <filesystem>
@@ -11,6 +11,7 @@
 
 #include "core/types.hpp"
 #include "fem/hex_mesh.hpp"
+#include "geometry/triangle_mesh.hpp"
 
 namespace drogue::io {
 
@@ -20,5 +21,9 @@ namespace drogue::io {
 void write_canopy(const std::filesystem::path& file, const fem::HexMesh& mesh, std::span<const Vec3> position,
                   std::span<const Vec3> velocity, const std::map<std::string, std::vector<double>>& cell_data,
                   std::optional<double> time = std::nullopt);
+
+/// Writes the surface of a rigid body, its points now at `position` [m], with point data Displacement [m].
+void write_surface(const std::filesystem::path& file, const geometry::TriangleMesh& mesh,
+                   std::span<const Vec3> position, double time);
 
 }  // namespace drogue::io

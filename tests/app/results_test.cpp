@@ -25,8 +25,19 @@ Trace trace_of(int n, double end, F c_d) {
     trace.centre_dx.push_back(0.1 * trace.c_d.back());
     trace.slip_normal.push_back(0.0);
     trace.face_difference.push_back(i == n / 2 ? 3.0 : 1.0);
+    trace.slip_rms.push_back(0.01);
+    trace.wake_length.push_back(i / 10.0);
   }
   return trace;
+}
+
+const Body sheet{"sheet", 1.0, ElasticBody{.mesh = {}, .material = fem::SaintVenantKirchhoff(1.0, 0.0), .structure = {}, .holds = {}, .coupling = {}}};
+
+Body rigid(const std::string& translation_x) {
+  RigidBody body;
+  body.shape = geometry::sphere(Vec3::Zero(), 1.0);
+  body.motion.translation[0] = Expression(translation_x);
+  return {"sphere", 1.0, body};
 }
 
 std::optional<double> value_of(const std::vector<Result>& results, const std::string& name) {
@@ -69,13 +80,31 @@ TEST(Results, peaks_before_their_time_do_not_count) {
   const Trace trace = trace_of(80, 8.0, [](double t) { return t < 0.1 ? 100.0 : 4.0 - (t - 0.65) * (t - 0.65); });
   ResultOptions options;
   options.stable_window = {4.0, 8.0};
-  EXPECT_EQ(value_of(summarise(trace, options), "cd_peak"), 100.0);
+  EXPECT_EQ(value_of(summarise(trace, sheet, options), "cd_peak"), 100.0);
   options.peak_from = 0.15;
-  const auto results = summarise(trace, options);
+  const auto results = summarise(trace, sheet, options);
   EXPECT_DOUBLE_EQ(*value_of(results, "cd_peak"), 4.0);
   EXPECT_DOUBLE_EQ(*value_of(results, "cd_peak_time"), 0.7) << "the end of the row";
   EXPECT_DOUBLE_EQ(*value_of(results, "centre_dx_peak"), 0.4);
   EXPECT_EQ(value_of(results, "face_difference_max"), 3.0);
+}
+
+TEST(Results, a_body_has_those_that_mean_something_for_it) {
+  const auto has = [](const Body& body, const std::string& name) {
+    return std::ranges::count(result_names(body), name) == 1;
+  };
+  for (const char* name : {"cd_peak", "cd_stable"}) {
+    EXPECT_TRUE(has(sheet, name) && has(rigid("0"), name) && has(rigid("t"), name)) << name;
+  }
+  EXPECT_TRUE(has(sheet, "centre_dx_peak") && !has(rigid("0"), "centre_dx_peak"));
+  EXPECT_TRUE(has(rigid("t"), "slip_rms_stable") && !has(sheet, "slip_rms_stable"));
+  EXPECT_TRUE(has(rigid("0"), "wake_length")) << "it stands still";
+  EXPECT_FALSE(has(rigid("t"), "wake_length") || has(sheet, "wake_length"));
+}
+
+TEST(Results, the_length_of_the_wake_is_that_at_the_end) {
+  const Trace trace = trace_of(20, 4.0, [](double) { return 1.0; });
+  EXPECT_EQ(value_of(summarise(trace, rigid("0"), {.body = "sphere", .stable_window = {2.0, 4.0}}), "wake_length"), 2.0);
 }
 
 TEST(Results, references_agree_within_their_relative_bound) {

@@ -82,7 +82,7 @@ TEST(Coupling, an_infinitely_heavy_solid_is_direct_forcing) {
 
   const auto& mesh = solid.mesh();
   const auto pairs = fem::thickness_pairs(mesh, dx);
-  const auto motion = [&](double, std::span<Vec3> position, std::span<Vec3> velocity) {
+  const auto motion = [&](const fluid::FineStep&, std::span<Vec3> position, std::span<Vec3> velocity) {
     for (std::size_t p = 0; p < pairs.size(); ++p) {
       position[p] = 0.5 * (mesh.nodes[pairs[p][0]] + mesh.nodes[pairs[p][1]]);
       velocity[p] = v;

@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// A body in the flow as the run sees it, whatever it is made of.
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+#include "app/case.hpp"
+#include "app/history.hpp"
+#include "fluid/fluid_solver.hpp"
+
+namespace drogue::app {
+
+/// Stays where it is made, since its parts refer to each other.
+class CoupledBody : public fluid::FineStepHook {
+ public:
+  explicit CoupledBody(const Body& body) : description(body) {}
+  CoupledBody(const CoupledBody&) = delete;
+  CoupledBody& operator=(const CoupledBody&) = delete;
+
+  /// What a row of the history says, but for the coefficients; forces are means since the last call.
+  virtual BodyRow measure(const fluid::FluidSolver& fluid) = 0;
+  /// Writes a `.vtu` of the body as it is at `time` [s]. Throws std::runtime_error naming the file.
+  virtual void write(const std::filesystem::path& file, double time) const = 0;
+  /// A few lines about what follows from its description.
+  virtual std::string report(const Case& c) const = 0;
+  virtual void transfer_state(Archive& archive) = 0;
+  /// Wall time spent in its structure so far [s].
+  virtual double structure_seconds() const { return 0.0; }
+
+  const Body& description;
+};
+
+}  // namespace drogue::app
