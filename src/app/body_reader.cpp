@@ -126,7 +126,7 @@ fsi::CouplingOptions read_elastic_coupling(Section coupling) {
   return options;
 }
 
-Body read_elastic(Section& section, double fluid_density) {
+Body read_elastic(Section& section, const Case& c) {
   const std::string name = read_name(section);
   const auto mesh = read_mesh(section);
   const fem::StructureOptions structure = read_structure(section);
@@ -140,7 +140,7 @@ Body read_elastic(Section& section, double fluid_density) {
                    .coupling = read_elastic_coupling(section.section("coupling", coupling_doc))};
   section.each("hold", "nodes that are held near where they start",
                [&](Section& hold) { body.holds.push_back(read_hold(hold)); });
-  body.coupling.fluid_density = fluid_density;
+  body.coupling.fluid_density = c.fluid.density;
   body.coupling.body = name;
   return {name, reference_area, std::move(body)};
 }
@@ -178,7 +178,7 @@ ib::RigidMotion read_motion(Section section, const Vec3& centre) {
   return motion;
 }
 
-ib::RigidBodyOptions read_rigid_coupling(Section coupling, bool encloses_volume) {
+ib::RigidBodyOptions read_rigid_coupling(Section coupling, const Case& c, bool encloses_volume) {
   ib::RigidBodyOptions options;
   options.delta = read_delta(coupling);
   options.iterations = coupling.get<int>("iterations", {.doc = "passes of direct forcing a step, of a rigid body",
@@ -188,14 +188,17 @@ ib::RigidBodyOptions read_rigid_coupling(Section coupling, bool encloses_volume)
                                                      .fallback = options.spacing,
                                                      .range = {.min = 0.25, .max = 2}});
   if (encloses_volume || coupling.describing()) {
-    options.retraction = coupling.get<double>("retraction", {.doc = "of a closed rigid body's markers, in finest cells",
-                                                             .fallback = options.retraction,
-                                                             .range = {.min = 0.0, .max = 2.0}});
+    options.retraction = coupling.get<double>(
+        "retraction",
+        {.doc = "of a closed rigid body's markers, in finest cells; by default so far that the fluid sees "
+                "the surface where it is",
+         .derived = wall_offset(c, options.delta),
+         .range = {.min = 0.0, .max = 2.0}});
   }
   return options;
 }
 
-Body read_rigid(Section& section, double fluid_density) {
+Body read_rigid(Section& section, const Case& c) {
   const std::string name = read_name(section);
   RigidBody body;
   body.key = section.has("surface") ? "surface" : "shape";
@@ -204,21 +207,21 @@ Body read_rigid(Section& section, double fluid_density) {
   const double suggested = body.shape.reference_area;
   const double reference_area = read_reference_area(section, suggested > 0.0 ? std::optional(suggested) : std::nullopt);
   body.motion = read_motion(section.section("motion", "of a rigid body, prescribed"), body.shape.centre);
-  body.coupling = read_rigid_coupling(section.section("coupling", coupling_doc), body.shape.encloses_volume);
-  body.coupling.fluid_density = fluid_density;
+  body.coupling = read_rigid_coupling(section.section("coupling", coupling_doc), c, body.shape.encloses_volume);
+  body.coupling.fluid_density = c.fluid.density;
   body.coupling.body = name;
   return {name, reference_area, std::move(body)};
 }
 
 }  // namespace
 
-Body read_body(Section& section, double fluid_density) {
+Body read_body(Section& section, const Case& c) {
   const bool rigid = section.has("shape") || section.has("surface");
   if (!rigid || section.describing()) {
-    Body body = read_elastic(section, fluid_density);
+    Body body = read_elastic(section, c);
     if (!section.describing()) return body;
   }
-  return read_rigid(section, fluid_density);
+  return read_rigid(section, c);
 }
 
 }  // namespace drogue::app

@@ -7,7 +7,8 @@
 
 namespace drogue::app {
 
-/// An elastic body has a `mesh`, a rigid one a `shape` or a `surface`. Throws InputError.
-Body read_body(Section& section, double fluid_density);
+/// An elastic body has a `mesh`, a rigid one a `shape` or a `surface`. Of `c` the fluid and the grid are there already.
+/// Throws InputError.
+Body read_body(Section& section, const Case& c);
 
 }  // namespace drogue::app

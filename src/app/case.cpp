@@ -34,6 +34,13 @@ double relaxation_time(const Case& c, int level) {
   return 0.5 + 3.0 * c.fluid.viscosity * time_step(c, level) / (dx * dx);
 }
 
+/// The lattice-Boltzmann fluid yields to a force that varies from cell to cell by (1 - tau) / (2 nu) more than the
+/// second difference says (docs/theory.md).
+double wall_offset(const Case& c, ib::Delta delta) {
+  const double tau = relaxation_time(c, level_of(c.domain.coarsest, c.finest));
+  return ib::wall_offset(delta) + 0.5 * (1.0 - tau) * ib::sum_phi_squared(delta);
+}
+
 Vec3 flow_direction(const Case& c) {
   const Vec3 middle = 0.5 * (c.domain.box.lower + c.domain.box.upper);
   for (int face = 0; face < 6; ++face) {

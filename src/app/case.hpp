@@ -121,6 +121,8 @@ const Body* summarised_body(const Case& c);
 double time_step(const Case& c, int level);
 /// Relaxation time of a level in its own steps.
 double relaxation_time(const Case& c, int level);
+/// How far before its markers the fluid of the case sees a surface, in cells of the finest level.
+double wall_offset(const Case& c, ib::Delta delta);
 /// Unit vector of the flow that enters: of the first velocity face at its centre, or x.
 Vec3 flow_direction(const Case& c);
 

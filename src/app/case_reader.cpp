@@ -224,7 +224,7 @@ Case read_all(const Document& document, Record& record) {
   read_domain(root.section("domain", "the box of fluid"), c);
   read_fluid(root.section("fluid", "the fluid and its solver"), c);
   read_grid(root.section("grid", "the block-refined grid"), c);
-  root.each("body", "a body in the flow", [&](Section& body) { c.bodies.push_back(read_body(body, c.fluid.density)); });
+  root.each("body", "a body in the flow", [&](Section& body) { c.bodies.push_back(read_body(body, c)); });
   Section time = root.section("time", "the run");
   c.end = time.get<double>("end", {.unit = "s", .doc = "the run starts at 0", .range = positive});
   read_output(root.section("output", "what is written, and when"), c);

@@ -4,6 +4,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
+#include <numeric>
 
 #include "app/wake.hpp"
 #include "io/canopy.hpp"
@@ -70,13 +72,17 @@ BodyRow CoupledRigidBody::measure(const fluid::FluidSolver& fluid) {
   row.centre = pose(body_.surface().enclosed.centre);
   row.slip_rms = slip.rms;
   row.slip_max = slip.max;
-  if (has_wake(description)) {
-    double rear = 0.0;
-    for (const Vec3& p : body_.surface().point) rear = std::max(rear, (pose(p) - row.centre).dot(flow_direction_));
-    row.wake_length =
-        wake_length(fluid, row.centre + rear * flow_direction_, flow_direction_) / rigid(description).shape.width;
-  }
+  if (has_wake(description)) row.wake_length = wake_length(fluid);
   return row;
+}
+
+/// In widths, from the point of the surface that lies farthest downstream.
+double CoupledRigidBody::wake_length(const fluid::FluidSolver& fluid) const {
+  const ib::Pose pose = body_.motion().pose(fluid.time());
+  const Vec3 centre = pose(body_.surface().enclosed.centre);
+  double rear = 0.0;
+  for (const Vec3& p : body_.surface().point) rear = std::max(rear, (pose(p) - centre).dot(flow_direction_));
+  return app::wake_length(fluid, centre + rear * flow_direction_, flow_direction_) / rigid(description).shape.width;
 }
 
 void CoupledRigidBody::write(const std::filesystem::path& file, double time) const {
@@ -88,18 +94,17 @@ void CoupledRigidBody::write(const std::filesystem::path& file, double time) con
 }
 
 std::string CoupledRigidBody::report(const Case& c) const {
-  const RigidBody& description_of = rigid(description);
   const geometry::Surface& surface = body_.surface();
-  double area = 0.0;
-  for (double a : surface.area) area += a;
+  const double area = std::accumulate(surface.area.begin(), surface.area.end(), 0.0);
+  const double spacing = std::sqrt(area / static_cast<double>(surface.point.size())) / c.finest;
+  const auto& [shape, key, motion, coupling] = rigid(description);
   std::string text = fmt::format(
-      "body    {}: rigid, {} markers {:.3g} cells apart on {:.4g} m^2, enclosing {:.4g} m^3; reference area {:.4g} "
-      "m^2\n",
-      description.name, surface.point.size(), std::sqrt(area / static_cast<double>(surface.point.size())) / c.finest,
-      area, surface.enclosed.volume, description.reference_area);
-  if (description_of.shape.width > 0.0) {
-    text += fmt::format("        {:.4g} cells of the finest level across its width of {} m\n",
-                        description_of.shape.width / c.finest, description_of.shape.width);
+      "body    {}: rigid, {} markers {:.3g} cells apart on {:.4g} m^2, {:.3g} cells within the surface\n"
+      "        enclosing {:.4g} m^3; reference area {:.4g} m^2\n",
+      description.name, surface.point.size(), spacing, area, coupling.retraction, surface.enclosed.volume,
+      description.reference_area);
+  if (shape.width > 0.0) {
+    text += fmt::format("        {:.4g} finest cells across its width of {} m\n", shape.width / c.finest, shape.width);
   }
   return text;
 }

@@ -24,6 +24,8 @@ class CoupledRigidBody : public CoupledBody {
   void transfer_state(Archive& archive) override { archive.transfer("motion", body_); }
 
  private:
+  double wake_length(const fluid::FluidSolver& fluid) const;
+
   ib::RigidBody body_;
   Vec3 flow_direction_;
 };

@@ -22,7 +22,7 @@ class Expression {
   ~Expression();
 
   double operator()(const Vec3& position, double time) const;
-  bool is_constant() const { return parser_ == nullptr; }   ///< depends on neither place nor time
+  bool is_constant() const { return parser_ == nullptr; }  ///< depends on neither place nor time
   bool depends_on_time() const { return depends_on_time_; }
   bool depends_on_place() const { return depends_on_place_; }
   const std::string& text() const { return text_; }

@@ -105,8 +105,7 @@ Shape sphere(const Vec3& centre, double diameter) {
     surface.enclosed.inertia = 0.4 * surface.enclosed.volume * r * r * Mat3::Identity();
     return placed(std::move(surface), 0, centre);
   };
-  return {.centre = centre,
- .reference_area = pi * r * r, .width = diameter, .sample = sample};
+  return {.centre = centre, .reference_area = pi * r * r, .width = diameter, .sample = sample};
 }
 
 Shape cylinder(const Vec3& centre, int axis, double diameter, double length, Ends ends) {
@@ -124,7 +123,7 @@ Shape cylinder(const Vec3& centre, int axis, double diameter, double length, End
     return placed(std::move(surface), axis, centre);
   };
   return {.centre = centre,
- .reference_area = diameter * length,
+          .reference_area = diameter * length,
           .width = diameter,
           .span = ends == Ends::open ? length : 0.0,
           .span_axis = axis,
@@ -145,7 +144,7 @@ Shape plate(const Vec3& centre, int normal, const std::array<double, 2>& size) {
     return placed(std::move(surface), normal, centre);
   };
   return {.centre = centre,
- .reference_area = size[0] * size[1],
+          .reference_area = size[0] * size[1],
           .width = std::min(size[0], size[1]),
           .encloses_volume = false,
           .sample = sample};
@@ -156,8 +155,8 @@ Shape disk(const Vec3& centre, int normal, double diameter) {
   const auto sample = [=](double spacing) {
     return placed(revolution({straight({r, 0.0}, {0.0, 0.0})}, spacing), normal, centre);
   };
-  return {.centre = centre,
- .reference_area = pi * r * r, .width = diameter, .encloses_volume = false, .sample = sample};
+  return {
+      .centre = centre, .reference_area = pi * r * r, .width = diameter, .encloses_volume = false, .sample = sample};
 }
 
 }  // namespace drogue::geometry

@@ -44,9 +44,10 @@ bool is_closed(const TriangleMesh& mesh) {
   }
   if (!twice_alike) return !mesh.triangles.empty();
   const Vec3& at = mesh.points[(*twice_alike)[0]];
-  throw InputError(fmt::format("the closed surface has two triangles of opposite orientation at ({:g}, {:g}, {:g}) m; "
-                               "expected all of them counter-clockwise seen from outside",
-                               at.x(), at.y(), at.z()));
+  throw InputError(
+      fmt::format("the closed surface has two triangles of opposite orientation at ({:g}, {:g}, {:g}) m; "
+                  "expected all of them counter-clockwise seen from outside",
+                  at.x(), at.y(), at.z()));
 }
 
 Solid solid_of(const TriangleMesh& mesh) {

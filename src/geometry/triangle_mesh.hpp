@@ -11,14 +11,14 @@
 namespace drogue::geometry {
 
 struct TriangleMesh {
-  std::vector<Vec3> points;                  ///< [m]
+  std::vector<Vec3> points;                   ///< [m]
   std::vector<std::array<int, 3>> triangles;  ///< counter-clockwise seen from outside
 };
 
 struct Solid {
-  double volume = 0.0;           ///< [m^3]
-  Vec3 centre = Vec3::Zero();    ///< of the volume; of the area where there is none [m]
-  Mat3 inertia = Mat3::Zero();   ///< about the centre, per density [m^5]
+  double volume = 0.0;          ///< [m^3]
+  Vec3 centre = Vec3::Zero();   ///< of the volume; of the area where there is none [m]
+  Mat3 inertia = Mat3::Zero();  ///< about the centre, per density [m^5]
 };
 
 /// Reads `.stl`, ASCII or binary, or the triangles and quadrangles of a gmsh 4.1 `.msh`; coordinates are metres.

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Points on a triangulated surface, however coarse or fine its triangles: they are cut into pieces much smaller than the
-// spacing; a piece becomes a point if there is none near it yet, and otherwise counts for the nearest. Pieces that look
-// the other way belong to the other side of a thin body and do not count as near.
+// Points on a triangulated surface, however coarse or fine its triangles: they are cut into pieces much smaller than
+// the spacing; a piece becomes a point if there is none near it yet, and otherwise counts for the nearest. Pieces that
+// look the other way belong to the other side of a thin body and do not count as near.
 #include <Eigen/Geometry>
 #include <cmath>
 #include <cstdint>
@@ -14,7 +14,7 @@ namespace drogue::geometry {
 
 namespace {
 
-constexpr double nearest_points = 0.85;   // of the spacing: about one point per square of it remains
+constexpr double nearest_points = 0.85;       // of the spacing: about one point per square of it remains
 constexpr double largest_piece = 1.0 / 16.0;  // of the square of the spacing
 
 struct Piece {
@@ -103,7 +103,9 @@ Surface sample(const TriangleMesh& mesh, double spacing) {
 
 Shape triangulated(const std::filesystem::path& file) {
   const TriangleMesh mesh = read_triangles(file);
-  return {.centre = solid_of(mesh).centre, .encloses_volume = is_closed(mesh), .sample = [mesh](double spacing) { return sample(mesh, spacing); }};
+  return {.centre = solid_of(mesh).centre, .encloses_volume = is_closed(mesh), .sample = [mesh](double spacing) {
+            return sample(mesh, spacing);
+          }};
 }
 
 }  // namespace drogue::geometry

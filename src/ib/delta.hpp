@@ -20,13 +20,12 @@ constexpr int support(Delta delta) { return delta == Delta::peskin4 ? 4 : 3; }
 /// of markers drags the fluid mass rho dx / sum_phi_squared per area (Gsell & Favier, J. Comput. Phys. 429 (2021)).
 constexpr double sum_phi_squared(Delta delta) { return delta == Delta::peskin4 ? 3.0 / 8.0 : 1.0 / 2.0; }
 
-/// How far before its markers, in cells, a surface appears to a fluid that is sheared on its outer side alone. Where
-/// the force of the markers is spread the profile bends from no shear to its full slope; no slip of what is
-/// interpolated there puts the wall that the full slope points at
-///   sum_i phi_i u_i,   u_(i+1) - 2 u_i + u_(i-1) = phi_i,   u = 0 inside,
-/// into the fluid: the mean of that over the places of the grid (about half the mean distance of two points drawn from
-/// phi). W.-P. Breugem, J. Comput. Phys. 231 (2012) 4469, found the remedy, to retract the markers, and 0.3 for the
-/// three-point function, by trial.
+/// How far before its markers, in cells, a surface appears to a fluid that is sheared on its outer side alone: over the
+/// cells that the markers' force is spread to the profile bends from no slope to slope one,
+///   u_(i+1) - 2 u_i + u_(i-1) = phi_i,
+/// and without slip at the markers, sum phi_i u_i = 0, that slope points at a wall further out. The mean over the
+/// places of the grid, about half the mean distance of two points drawn from phi. (W.-P. Breugem, J. Comput. Phys. 231
+/// (2012) 4469, who retracts the markers by it, found 0.3 for the three-point function by trial.)
 constexpr double wall_offset(Delta delta) { return delta == Delta::peskin4 ? 0.381 : 0.266; }
 
 /// The weights of one axis: cell `low + i` has weight[i]; the three-point kernel leaves the last one zero.

@@ -42,6 +42,8 @@ class Overlap {
   std::vector<double> table_;
 };
 
+constexpr int rounds = 16;  // leave row sums off by up to 1 % on a sphere, by up to 10 % at the corners of a plate
+
 /// Numbers of the points in ascending order along `axis`.
 std::vector<int> sorted_along(int axis, std::span<const Vec3> position) {
   std::vector<int> order(position.size());
@@ -96,13 +98,15 @@ std::vector<double> mass_dragged_by_cloud(Delta delta, std::span<const Vec3> pos
 
 std::vector<double> mass_dragged(const Markers& markers, const amr::Forest& forest, std::span<const double> volume,
                                  double density) {
-  std::vector<Vec3> field(volume.size());
-  for (std::size_t l = 0; l < field.size(); ++l) field[l] = Vec3(volume[l], 0.0, 0.0);
-  fluid::ForceField indicator(forest);
-  markers.spread(field, indicator);
-  markers.interpolate(indicator, field);
-  std::vector<double> mass(volume.size());
-  for (std::size_t l = 0; l < mass.size(); ++l) mass[l] = density * volume[l] / field[l].x();
+  std::vector<double> mass(volume.begin(), volume.end());
+  std::vector<Vec3> field(mass.size());
+  for (int round = 0; round < rounds; ++round) {
+    for (std::size_t l = 0; l < mass.size(); ++l) field[l] = Vec3(mass[l], 0.0, 0.0);
+    fluid::ForceField spread(forest);
+    markers.spread(field, spread);
+    markers.interpolate(spread, field);
+    for (std::size_t l = 0; l < mass.size(); ++l) mass[l] *= density / field[l].x();
+  }
   return mass;
 }
 

@@ -29,8 +29,9 @@ std::vector<double> mass_dragged_by_sheet(Delta delta, std::span<const double> a
 std::vector<double> mass_dragged_by_cloud(Delta delta, std::span<const Vec3> position, std::span<const double> volume,
                                           double spacing, double density);
 
-/// The same for markers that stand on the grid, with K as it is there: exact in the place they are in, and across
-/// periodic sides.
+/// Markers that stand on the grid, with K as it is there, across periodic sides too: the row sums themselves are
+/// brought close to one, by M_l <- M_l rho / sum_k K_lk M_k from M = `volume` on, which keeps M positive. It piles up
+/// at edges.
 std::vector<double> mass_dragged(const Markers& markers, const amr::Forest& forest, std::span<const double> volume,
                                  double density);
 

@@ -31,7 +31,10 @@ Trace trace_of(int n, double end, F c_d) {
   return trace;
 }
 
-const Body sheet{"sheet", 1.0, ElasticBody{.mesh = {}, .material = fem::SaintVenantKirchhoff(1.0, 0.0), .structure = {}, .holds = {}, .coupling = {}}};
+const Body sheet{
+    "sheet", 1.0,
+    ElasticBody{
+        .mesh = {}, .material = fem::SaintVenantKirchhoff(1.0, 0.0), .structure = {}, .holds = {}, .coupling = {}}};
 
 Body rigid(const std::string& translation_x) {
   RigidBody body;
@@ -104,7 +107,8 @@ TEST(Results, a_body_has_those_that_mean_something_for_it) {
 
 TEST(Results, the_length_of_the_wake_is_that_at_the_end) {
   const Trace trace = trace_of(20, 4.0, [](double) { return 1.0; });
-  EXPECT_EQ(value_of(summarise(trace, rigid("0"), {.body = "sphere", .stable_window = {2.0, 4.0}}), "wake_length"), 2.0);
+  EXPECT_EQ(value_of(summarise(trace, rigid("0"), {.body = "sphere", .stable_window = {2.0, 4.0}}), "wake_length"),
+            2.0);
 }
 
 TEST(Results, references_agree_within_their_relative_bound) {

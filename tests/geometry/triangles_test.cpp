@@ -17,7 +17,8 @@ namespace {
 TriangleMesh box(const Vec3& lower, const Vec3& upper, bool inwards = false) {
   TriangleMesh mesh;
   for (int i = 0; i < 8; ++i) {
-    mesh.points.emplace_back(i & 1 ? upper.x() : lower.x(), i & 2 ? upper.y() : lower.y(), i & 4 ? upper.z() : lower.z());
+    mesh.points.emplace_back(i & 1 ? upper.x() : lower.x(), i & 2 ? upper.y() : lower.y(),
+                             i & 4 ? upper.z() : lower.z());
   }
   for (const auto& [a, b, c, d] : std::vector<std::array<int, 4>>{
            {0, 2, 3, 1}, {4, 5, 7, 6}, {0, 1, 5, 4}, {2, 6, 7, 3}, {0, 4, 6, 2}, {1, 3, 7, 5}}) {

@@ -75,6 +75,24 @@ TEST_P(BothDeltas, sum_of_squares_does_not_depend_on_the_place) {
   });
 }
 
+TEST_P(BothDeltas, wall_offset_is_where_a_profile_without_slip_at_the_markers_points) {
+  constexpr int places = 100;
+  double sum = 0.0;
+  for (int place = 0; place < places; ++place) {
+    const double s = 10.0 + static_cast<double>(place) / places;
+    const AxisWeights axis = axis_weights(GetParam(), s);
+    double u = 0.0, slope = 0.0, at_marker = 0.0;
+    for (int i = 0; i < 4; ++i) {
+      at_marker += axis.weight[i] * u;
+      slope += axis.weight[i];
+      u += slope;
+    }
+    const double points_at = axis.low + 4 - u / slope;  // where the straight profile beyond the last cell is zero
+    sum += (points_at + at_marker / slope - s) / places;
+  }
+  EXPECT_NEAR(sum, wall_offset(GetParam()), 1e-3);
+}
+
 TEST(FourPointDelta, even_and_odd_cells_weigh_the_same) {
   for (double s = 0.0; s < 1.0; s += 0.01) {
     const auto w = axis_weights(Delta::peskin4, s).weight;

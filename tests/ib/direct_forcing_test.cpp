@@ -124,7 +124,9 @@ TEST(DirectForcing, a_second_body_sees_the_forces_of_the_first) {
   FakeFluid fluid(forest, density);
   fluid.fill([](const Vec3&) { return Vec3(1.0, 0.0, 0.0); });
   const std::vector<double> mass(1, density * std::pow(dx / sum_phi_squared(Delta::peskin4), 3));
-  const auto at_origin = [](const fluid::FineStep&, std::span<Vec3> x, std::span<Vec3> v) { x[0] = v[0] = Vec3::Zero(); };
+  const auto at_origin = [](const fluid::FineStep&, std::span<Vec3> x, std::span<Vec3> v) {
+    x[0] = v[0] = Vec3::Zero();
+  };
   DirectForcing first(forest, {Delta::peskin4, 1, "first"}, mass, at_origin);
   DirectForcing second(forest, {Delta::peskin4, 1, "second"}, mass, at_origin);
   struct Both : fluid::FineStepHook {
