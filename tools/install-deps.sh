@@ -3,6 +3,7 @@
 # Installs the Debian 12 packages of the tiers that are named, those that are missing only:
 #   run     building, running and testing
 #   mesh    gmsh, for cases that bring a .geo
+#   plot    gnuplot, for figures
 #   render  VTK and a virtual display, for pictures
 # Works as root or through sudo; where neither is possible it prints the line to run and exits 2.
 set -euo pipefail
@@ -11,15 +12,16 @@ declare -A tiers=(
   [run]="g++ cmake make ninja-build libopenmpi-dev libp4est-dev libhdf5-dev libeigen3-dev libmuparser-dev
          libspdlog-dev libfmt-dev libcli11-dev libtomlplusplus-dev nlohmann-json3-dev libgtest-dev libbenchmark-dev"
   [mesh]="gmsh"
+  [plot]="gnuplot-nox"
   [render]="libvtk9-dev xvfb xauth"
 )
 
 wanted=()
 for tier in "$@"; do
-  [[ -n ${tiers[$tier]:-} ]] || { echo "install-deps: unknown tier '$tier', expected run, mesh or render" >&2; exit 2; }
+  [[ -n ${tiers[$tier]:-} ]] || { echo "install-deps: unknown tier '$tier', expected run, mesh, plot or render" >&2; exit 2; }
   wanted+=(${tiers[$tier]})
 done
-((${#wanted[@]})) || { echo "usage: $0 run|mesh|render ..." >&2; exit 2; }
+((${#wanted[@]})) || { echo "usage: $0 run|mesh|plot|render ..." >&2; exit 2; }
 
 if ! command -v apt-get >/dev/null; then
   echo "install-deps: no apt-get here; what is missing must come from elsewhere: ${wanted[*]}" >&2

@@ -1,10 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/scene.hpp"
 
-#include <fcntl.h>
 #include <fmt/format.h>
-#include <spawn.h>
-#include <sys/wait.h>
 
 #include <string>
 #include <utility>
@@ -12,8 +9,7 @@
 #include "app/case_checks.hpp"
 #include "app/elastic_body.hpp"
 #include "app/rigid_body.hpp"
-
-extern char** environ;
+#include "core/process.hpp"
 
 namespace drogue::app {
 
@@ -21,30 +17,12 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Runs a program, its output into `log`, and returns its exit status, or -1 if there is no such program.
-int run_program(std::vector<std::string> words, const fs::path& log) {
-  std::vector<char*> arguments;
-  for (std::string& word : words) arguments.push_back(word.data());
-  arguments.push_back(nullptr);
-  posix_spawn_file_actions_t actions;
-  posix_spawn_file_actions_init(&actions);
-  posix_spawn_file_actions_addopen(&actions, 1, log.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0644);
-  posix_spawn_file_actions_adddup2(&actions, 1, 2);
-  pid_t child = 0;
-  const int failed = posix_spawnp(&child, arguments[0], &actions, nullptr, arguments.data(), environ);
-  posix_spawn_file_actions_destroy(&actions);
-  if (failed) return -1;
-  int status = 0;
-  waitpid(child, &status, 0);
-  return WIFEXITED(status) ? WEXITSTATUS(status) : 1;
-}
-
 fs::path generate_mesh(const Case& c, const Body& body, const fs::path& geometry, const fs::path& folder) {
   const std::string key = fmt::format("body.{}.mesh", body.name);
   fs::create_directories(folder);
   const fs::path mesh = folder / fmt::format("{}.msh", body.name), log = folder / fmt::format("{}.gmsh.log", body.name);
   const int status = run_program({"gmsh", "-3", "-format", "msh41", "-o", mesh.string(), geometry.string()}, log);
-  if (status < 0 || status == 127) {
+  if (status == not_installed) {
     fail(
         c, key,
         fmt::format("= \"{}\" needs gmsh, which is not installed; on Debian: apt-get install gmsh", geometry.string()));

@@ -1,0 +1,215 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "io/plot.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+#include <iterator>
+#include <limits>
+#include <stdexcept>
+
+#include "core/process.hpp"
+
+namespace drogue::io {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+// Distinct also in print and to the colour-blind, after P. Tol, "Colour schemes" (2021), "bright" darkened for lines.
+constexpr std::array palette{"#2f5d8a", "#c8493a", "#3f8f4f", "#d99a1c", "#7d4a9c", "#3aa0b0", "#8c6d4f", "#6b6b6b"};
+constexpr int panel_width = 900, panel_height = 620, heading = 40;  // pixels
+
+/// A string of a script.
+std::string quoted(const std::string& text) {
+  std::string result = "'";
+  for (const char c : text) result += c == '\'' ? "''" : std::string(1, c);
+  return result + "'";
+}
+
+/// Terminal, file, and the grid of panels; `margins` of the panels if they are fixed.
+std::string opening(const fs::path& png, const std::string& title, std::size_t panels, int columns,
+                    const std::string& margins = "") {
+  const int across = std::min(columns, static_cast<int>(panels));
+  const int rows = (static_cast<int>(panels) + across - 1) / across;
+  std::string text = fmt::format(
+      "set encoding utf8\n"
+      "set terminal pngcairo enhanced size {},{} font 'DejaVu Sans,13' background '#ffffff'\n"
+      "set output {}\n"
+      "set border 3 linecolor '#444444'\nset tics nomirror textcolor '#222222'\n"
+      "set grid linecolor '#dddddd' linetype 1 linewidth 1\n"
+      "set title font ',14'\n",
+      across * panel_width, rows * panel_height + (title.empty() ? 0 : heading), quoted(png.string()));
+  text += fmt::format("set multiplot layout {},{} {}", rows, across, margins);
+  return text + (title.empty() ? "\n" : fmt::format(" title {} font ',17'\n", quoted(title)));
+}
+
+/// Ticks of a logarithmic axis are powers of ten where it spans several of them.
+std::string axis(char name, const Axis& axis, std::array<double, 2> span) {
+  const auto limit = [](std::optional<double> value) { return value ? fmt::format("{:.9g}", *value) : "*"; };
+  std::string text = fmt::format("set {0}label {1}\nset {0}range [{2}:{3}]\n", name, quoted(axis.label),
+                                 limit(axis.lower), limit(axis.upper));
+  if (axis.scale == Scale::linear) {
+    text += fmt::format("unset logscale {0}\nset format {0} '%g'\n", name);
+  } else {
+    const bool decades = span[1] >= 1e3 * span[0];
+    text += fmt::format("set logscale {0}\nset format {0} '{1}'\n", name, decades ? "10^{{%L}}" : "%g");
+  }
+  return text;
+}
+
+/// Smallest and largest finite value of a coordinate; positive ones only on a logarithmic axis.
+std::array<double, 2> span_of(const Plot& plot, const Axis& axis, std::vector<double> Curve::*coordinate) {
+  std::array span{std::numeric_limits<double>::max(), std::numeric_limits<double>::lowest()};
+  for (const Curve& curve : plot.curves) {
+    for (const double value : curve.*coordinate) {
+      if (!std::isfinite(value) || (axis.scale == Scale::logarithmic && value <= 0.0)) continue;
+      span = {std::min(span[0], value), std::max(span[1], value)};
+    }
+  }
+  return {axis.lower.value_or(span[0]), axis.upper.value_or(span[1])};
+}
+
+std::string data_block(const std::string& name, const Curve& curve) {
+  std::string text = fmt::format("${} << END\n", name);
+  for (std::size_t i = 0; i < std::min(curve.x.size(), curve.y.size()); ++i) {
+    // a blank line is a gap
+    const bool finite = std::isfinite(curve.x[i]) && std::isfinite(curve.y[i]);
+    text += finite ? fmt::format("{:.9g} {:.9g}\n", curve.x[i], curve.y[i]) : "\n";
+  }
+  return text + "END\n";
+}
+
+std::string with_style(const Curve& curve, int place) {
+  const int colour = curve.colour.value_or(place);
+  const auto line = fmt::format("linecolor rgb '{}' linewidth 2", palette[colour % palette.size()]);
+  const auto marks = fmt::format("pointtype {} pointsize 1.3", std::array{7, 5, 9, 11, 13, 15}[place % 6]);
+  switch (curve.style) {
+    case Style::line:
+      return "lines " + line;
+    case Style::dashed:
+      return "lines dashtype 2 " + line;
+    case Style::points:
+      return "points " + line + " " + marks;
+    case Style::line_and_points:
+      return "linespoints " + line + " " + marks;
+  }
+  return {};
+}
+
+std::string panel(const Plot& plot, int number) {
+  std::string text = fmt::format("set title {}\n", quoted(plot.title));
+  const auto x = span_of(plot, plot.x, &Curve::x), y = span_of(plot, plot.y, &Curve::y);
+  text += axis('x', plot.x, x) + axis('y', plot.y, y);
+  // below the plot, where it covers no data
+  text += "set key bmargin center horizontal Left reverse samplen 2 height 1.2 width 2 textcolor '#222222'\n";
+  if (x[0] > x[1] || y[0] > y[1]) {
+    return text +
+           "unset logscale\nset label 1 'no data' at graph 0.5,0.5 center\nplot [0:1] [0:1] -1 notitle\n"
+           "unset label 1\n";
+  }
+  std::vector<std::string> drawn;
+  for (std::size_t i = 0; i < plot.curves.size(); ++i) {
+    const Curve& curve = plot.curves[i];
+    const auto name = fmt::format("curve_{}_{}", number, i);
+    text += data_block(name, curve);
+    const auto title = curve.label.empty() ? "notitle" : "title " + quoted(curve.label);
+    drawn.push_back(fmt::format("${} with {} {}", name, with_style(curve, static_cast<int>(i)), title));
+  }
+  return text + fmt::format("plot {}\n", fmt::join(drawn, ", \\\n     "));
+}
+
+std::string ticks(char axis, const std::vector<std::string>& labels) {
+  std::vector<std::string> places;
+  for (std::size_t i = 0; i < labels.size(); ++i) places.push_back(fmt::format("{} {}", quoted(labels[i]), i));
+  return fmt::format("set {0}tics scale 0 ({1})\nset {0}range [-0.5:{2}]\n", axis, fmt::join(places, ", "),
+                     static_cast<double>(labels.size()) - 0.5);
+}
+
+std::string panel(const CategoryMap& map, const MapFigure& figure, int number) {
+  std::string text = fmt::format("set title {}\nset xlabel {}\nset ylabel {}\n", quoted(map.title), quoted(map.x_label),
+                                 quoted(map.y_label));
+  text += ticks('x', map.columns) + ticks('y', map.rows);
+  std::vector<std::string> drawn;
+  for (std::size_t c = 0; c < figure.categories.size(); ++c) {
+    const auto name = fmt::format("cells_{}_{}", number, c);
+    text += fmt::format("${} << END\n", name);
+    for (std::size_t row = 0; row < map.cells.size(); ++row) {
+      for (std::size_t column = 0; column < map.cells[row].size(); ++column) {
+        const auto& cell = map.cells[row][column];
+        if (cell.category == static_cast<int>(c)) text += fmt::format("{} {} \"{}\"\n", column, row, cell.text);
+      }
+    }
+    text += "END\n";
+    const auto& category = figure.categories[c];
+    drawn.push_back(
+        fmt::format("${} using 1:2:(0.47):(0.47) with boxxyerror fill solid noborder linecolor rgb '{}' notitle", name,
+                    category.colour));
+    drawn.push_back(fmt::format("${} using 1:2:3 with labels font ',11' textcolor '#222222' notitle", name));
+    if (number == 0) {
+      drawn.push_back(fmt::format("keyentry with boxes fill solid noborder linecolor rgb '{}' title {}",
+                                  category.colour, quoted(category.label)));
+    }
+  }
+  const std::string frame = "fill empty border rgb '#111111' linecolor rgb '#111111' linewidth 3";
+  if (map.framed) {
+    text += fmt::format("$frame_{} << END\n{} {}\nEND\n", number, (*map.framed)[1], (*map.framed)[0]);
+    drawn.push_back(fmt::format("$frame_{} using 1:2:(0.47):(0.47) with boxxyerror {} notitle", number, frame));
+  }
+  if (number == 0 && !figure.frame_label.empty()) {
+    drawn.push_back(fmt::format("keyentry with boxes {} title {}", frame, quoted(figure.frame_label)));
+  }
+  return text + fmt::format("plot {}\n", fmt::join(drawn, ", \\\n     "));
+}
+
+bool draw_script(const std::string& script, const fs::path& png) {
+  const fs::path file = png.string() + ".gnuplot", log = png.string() + ".log";
+  std::ofstream(file) << script;
+  const int status = run_program({"gnuplot", file.string()}, log);
+  std::ifstream said(log);
+  const std::string message{std::istreambuf_iterator<char>(said), {}};
+  if (status != 0 && status != not_installed) {
+    throw std::runtime_error(
+        fmt::format("gnuplot could not draw {} from {}: {}", png.string(), file.string(), message));
+  }
+  fs::remove(file);
+  fs::remove(log);
+  return status == 0;
+}
+
+}  // namespace
+
+std::string plain(const std::string& text) {
+  std::string result;
+  for (const char c : text) {
+    if (std::string("_^{}@&~\\").find(c) != std::string::npos) result += '\\';
+    result += c;
+  }
+  return result;
+}
+
+std::string gnuplot_script(const Figure& figure, const fs::path& png) {
+  std::string text = opening(png, figure.title, figure.plots.size(), figure.columns);
+  int number = 0;
+  for (const Plot& plot : figure.plots) text += panel(plot, number++);
+  return text + "unset multiplot\n";
+}
+
+std::string gnuplot_script(const MapFigure& figure, const fs::path& png) {
+  // margins of their own, since the one legend stands below all panels
+  std::string text = opening(png, figure.title, figure.maps.size(), figure.columns,
+                             "margins screen 0.08,0.98,0.14,0.90 spacing screen 0.09,0.13");
+  text +=
+      "unset grid\nset key at screen 0.5,0.035 center horizontal Left reverse samplen 1 width 2 maxrows 1 textcolor "
+      "'#222222'\n";
+  int number = 0;
+  for (const CategoryMap& map : figure.maps) text += panel(map, figure, number++);
+  return text + "unset multiplot\n";
+}
+
+bool draw(const Figure& figure, const fs::path& png) { return draw_script(gnuplot_script(figure, png), png); }
+bool draw(const MapFigure& figure, const fs::path& png) { return draw_script(gnuplot_script(figure, png), png); }
+
+}  // namespace drogue::io
