@@ -80,12 +80,14 @@ struct ResultOptions {
   double peak_from = 0.0;                 ///< [s]
 };
 
-/// A published number that a result of the run is held against.
+/// What a result of the run is held against: a published number, or a bound on what should be zero.
 struct Reference {
   std::string name;  ///< of the result
   double value = 0.0;
-  double within = 0.0;  ///< relative
+  double within = 0.0;  ///< relative difference; of a bound the largest magnitude
   std::string source;
+
+  bool is_bound() const { return value == 0.0; }
 };
 
 struct Case {

@@ -209,9 +209,17 @@ void read_results(Section section, Case& c) {
 void read_reference(const std::string& name, Section& section, Case& c) {
   Reference reference;
   reference.name = name;
-  reference.value = section.get<double>("value", {.doc = "published value of the result of this name, in SI"});
-  reference.within = section.get<double>(
-      "within", {.doc = "relative difference up to which they agree", .fallback = 0.1, .range = positive});
+  const auto below = section.find<double>(
+      "below", {.doc = "bound on the magnitude of a result that should be zero, instead of value", .range = positive});
+  if (!below || section.describing()) {
+    reference.value = section.get<double>("value", {.doc = "published value of the result of this name, in SI"});
+    reference.within = section.get<double>(
+        "within", {.doc = "relative difference up to which they agree", .fallback = 0.1, .range = positive});
+    if (reference.value == 0.0) {
+      section.fail("value", "= 0; a relative difference from zero says nothing, so give a bound: below");
+    }
+  }
+  if (below) reference.within = *below;
   reference.source = section.get<std::string>("source", {.doc = "where it is published", .fallback = ""});
   c.references.push_back(reference);
 }

@@ -12,17 +12,17 @@ namespace drogue::app {
 namespace {
 
 template <class T>
-struct Column {
+struct Source {
   const char *name, *unit;
   double (*value)(const T&);
 };
 
-struct BodyColumn : Column<BodyRow> {
+struct BodySource : Source<BodyRow> {
   bool (*applies)(const Body&) = is_any;
 };
 
 using B = const BodyRow&;
-constexpr BodyColumn body_columns[] = {
+constexpr BodySource body_columns[] = {
     {{"force_x", "N", [](B b) { return b.force.x(); }}},
     {{"force_y", "N", [](B b) { return b.force.y(); }}},
     {{"force_z", "N", [](B b) { return b.force.z(); }}},
@@ -58,7 +58,7 @@ constexpr BodyColumn body_columns[] = {
 };
 
 using R = const Row&;
-constexpr Column<Row> run_columns[] = {
+constexpr Source<Row> run_columns[] = {
     {"max_mach", "1", [](R r) { return r.max_mach; }},
     {"mass_drift", "1", [](R r) { return r.mass_drift; }},
     {"cell_updates", "1", [](R r) { return static_cast<double>(r.cell_updates); }},
@@ -69,53 +69,47 @@ std::string number(double value) { return fmt::format("{:.9g}", value); }
 
 }  // namespace
 
-History::History(const std::filesystem::path& file, const std::vector<Body>& bodies)
-    : file_(file), bodies_(bodies), traces_(bodies.size()) {}
+std::vector<History::Column> History::columns_of(const Case& c) {
+  std::vector<Column> columns;
+  for (std::size_t i = 0; i < c.bodies.size(); ++i) {
+    for (const BodySource& s : body_columns) {
+      if (!s.applies(c.bodies[i])) continue;
+      columns.push_back({fmt::format("{}.{}", c.bodies[i].name, s.name), s.unit,
+                         [i, value = s.value](R row) { return value(row.bodies[i]); }});
+    }
+  }
+  for (const Source<Row>& s : run_columns) columns.push_back({s.name, s.unit, s.value});
+  return columns;
+}
+
+History::History(const std::filesystem::path& file, const Case& c) : file_(file), columns_(columns_of(c)) {
+  for (const Column& column : columns_) trace_.column[column.name];
+}
 
 void History::start() {
   stream_.open(file_);
   std::vector<std::string> header{"time [s]"};
-  for (const Body& body : bodies_) {
-    for (const auto& column : body_columns) {
-      if (column.applies(body)) header.push_back(fmt::format("{}.{} [{}]", body.name, column.name, column.unit));
-    }
-  }
-  for (const auto& column : run_columns) header.push_back(fmt::format("{} [{}]", column.name, column.unit));
+  for (const Column& column : columns_) header.push_back(fmt::format("{} [{}]", column.name, column.unit));
   put_line(header);
 }
 
 void History::resume() {
-  keep_lines(file_, 1 + rows_);
+  keep_lines(file_, 1 + static_cast<int>(trace_.time.size()));
   stream_.open(file_, std::ios::app);
 }
 
 void History::append(const Row& row) {
   std::vector<std::string> cells{number(row.time)};
-  for (std::size_t i = 0; i < bodies_.size(); ++i) {
-    for (const auto& column : body_columns) {
-      if (column.applies(bodies_[i])) cells.push_back(number(column.value(row.bodies[i])));
-    }
+  trace_.time.push_back(row.time);
+  for (const Column& column : columns_) {
+    const double value = column.value(row);
+    cells.push_back(number(value));
+    trace_.column[column.name].push_back(value);
   }
-  for (const auto& column : run_columns) cells.push_back(number(column.value(row)));
   put_line(cells);
-  ++rows_;
-
-  for (std::size_t i = 0; i < traces_.size(); ++i) {
-    const BodyRow& body = row.bodies.at(i);
-    traces_[i].time.push_back(row.time);
-    traces_[i].c_d.push_back(body.c_d);
-    traces_[i].centre_dx.push_back(body.centre.x());
-    traces_[i].slip_normal.push_back(body.slip_normal);
-    traces_[i].face_difference.push_back(body.face_difference[1]);
-    traces_[i].slip_rms.push_back(body.slip_rms);
-    traces_[i].wake_length.push_back(body.wake_length);
-  }
 }
 
-void History::transfer_state(Archive& archive) {
-  archive.transfer("rows", rows_);
-  for (std::size_t i = 0; i < traces_.size(); ++i) archive.transfer("trace_" + bodies_[i].name, traces_[i]);
-}
+void History::transfer_state(Archive& archive) { archive.transfer("trace", trace_); }
 
 void History::put_line(const std::vector<std::string>& cells) {
   stream_ << fmt::format("{}\n", fmt::join(cells, ",")) << std::flush;

@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// history.csv: one row per output interval. A column is added in history.cpp, in one of its two lists.
+// history.csv: one row per output interval. A column is added in history.cpp, in one of its lists.
 #pragma once
 
 #include <array>
 #include <cstdint>
 #include <filesystem>
 #include <fstream>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -45,25 +46,28 @@ struct Row {
 /// Every member that writes throws std::runtime_error naming the file.
 class History {
  public:
-  /// `bodies` outlive it.
-  History(const std::filesystem::path& file, const std::vector<Body>& bodies);
+  History(const std::filesystem::path& file, const Case& c);
 
   void start();   ///< writes the header
   void resume();  ///< goes on after the rows of the state that was restored; later ones are removed
   void append(const Row& row);
-  /// The rows so far, body by body.
-  const std::vector<Trace>& traces() const { return traces_; }
+  /// The rows so far.
+  const Trace& trace() const { return trace_; }
 
   void transfer_state(Archive& archive);
 
  private:
+  struct Column {
+    std::string name, unit;
+    std::function<double(const Row&)> value;
+  };
+  static std::vector<Column> columns_of(const Case& c);
   void put_line(const std::vector<std::string>& cells);
 
   std::filesystem::path file_;
   std::ofstream stream_;
-  const std::vector<Body>& bodies_;
-  std::vector<Trace> traces_;
-  int rows_ = 0;
+  std::vector<Column> columns_;
+  Trace trace_;
 };
 
 }  // namespace drogue::app

@@ -5,9 +5,8 @@ namespace drogue::app {
 
 Recorder::Recorder(const Case& c, const Simulation& simulation, const std::filesystem::path& folder)
     : case_(c),
-      summarised_body_(c.bodies.empty() ? 0 : summarised_body(c) - c.bodies.data()),
       flow_direction_(flow_direction(c)),
-      history_(folder / "history.csv", c.bodies),
+      history_(folder / "history.csv", c),
       row_due_(c.output.history, Schedule::Zero::always),
       snapshots_(c.output, folder),
       mass_at_start_(simulation.fluid().mass_and_momentum()[0]) {}
@@ -43,8 +42,8 @@ void Recorder::record(const Simulation& simulation, bool last) {
 }
 
 std::optional<double> Recorder::c_d() const {
-  if (case_.bodies.empty() || trace().c_d.empty()) return std::nullopt;
-  return trace().c_d.back();
+  if (case_.bodies.empty() || trace().time.empty()) return std::nullopt;
+  return trace().column.at(case_.results.body + ".c_d").back();
 }
 
 void Recorder::write_row(const Simulation& simulation) {

@@ -28,8 +28,8 @@ class Recorder {
   /// To be called after every step; the `last` one gets a row in any case.
   void record(const Simulation& simulation, bool last);
 
-  /// The rows so far of the body that is summarised; there must be one.
-  const Trace& trace() const { return history_.traces().at(summarised_body_); }
+  /// The rows so far.
+  const Trace& trace() const { return history_.trace(); }
   std::optional<double> c_d() const;                   ///< of the last row, of the body that is summarised
   double mlups() const { return mlups_; }              ///< million cell updates a second, between the last two rows
   double seconds() const { return watch_.seconds(); }  ///< wall time spent here
@@ -41,7 +41,6 @@ class Recorder {
   void add_coefficients(const Body& body, BodyRow& row) const;
 
   const Case& case_;
-  std::size_t summarised_body_;
   Vec3 flow_direction_;
   History history_;
   Schedule row_due_;

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
 
 namespace drogue::app {
 
@@ -12,57 +11,92 @@ namespace {
 using Column = std::vector<double>;
 using Number = std::optional<double>;
 
-/// Row of the largest value at or after `from` [s].
-std::optional<std::size_t> peak_row(const Column& time, const Column& value, double from) {
+/// Row of the largest value that counts as a peak.
+std::optional<std::size_t> peak_row(const Column& time, const Column& value, const Case& c) {
   std::optional<std::size_t> best;
   for (std::size_t i = 0; i < time.size(); ++i) {
-    if (time[i] >= from && (!best || value[i] > value[*best])) best = i;
+    if (time[i] >= c.results.peak_from && (!best || value[i] > value[*best])) best = i;
   }
   return best;
 }
 
-Number peak(const Column& time, const Column& value, double from) {
-  const auto row = peak_row(time, value, from);
+Number peak(const Column& time, const Column& value, const Case& c) {
+  const auto row = peak_row(time, value, c);
   return row ? Number(value[*row]) : std::nullopt;
 }
 
-Number peak_time(const Column& time, const Column& value, double from) {
-  const auto row = peak_row(time, value, from);
+Number peak_time(const Column& time, const Column& value, const Case& c) {
+  const auto row = peak_row(time, value, c);
   return row ? Number(time[*row]) : std::nullopt;
 }
 
-Number largest(const Column& value) {
+Number stable(const Column& time, const Column& value, const Case& c) {
+  return window_mean(time, value, c.results.stable_window);
+}
+
+Number stable_drift(const Column& time, const Column& value, const Case& c) {
+  return window_drift(time, value, c.results.stable_window);
+}
+
+Number largest(const Column&, const Column& value, const Case&) {
   return value.empty() ? std::nullopt : Number(*std::max_element(value.begin(), value.end()));
 }
 
-Number last(const Column& value) { return value.empty() ? std::nullopt : Number(value.back()); }
+Number last(const Column&, const Column& value, const Case&) {
+  return value.empty() ? std::nullopt : Number(value.back());
+}
 
 struct Definition {
-  const char *name, *unit;
-  std::function<Number(const Trace&, const ResultOptions&)> value;
+  std::string name, unit;
+  std::string column;  ///< of the history; of a body without its name
+  Number (*value)(const Column& time, const Column& value, const Case& c);
+};
+
+struct BodyDefinition : Definition {
   bool (*applies)(const Body&) = is_any;
 };
 
-/// The one list of results.
-const std::vector<Definition>& definitions() {
-  using T = const Trace&;
-  using O = const ResultOptions&;
-  static const std::vector<Definition> list{
-      {"cd_peak", "", [](T t, O o) { return peak(t.time, t.c_d, o.peak_from); }},
-      {"cd_peak_time", "s", [](T t, O o) { return peak_time(t.time, t.c_d, o.peak_from); }},
-      {"cd_stable", "", [](T t, O o) { return window_mean(t.time, t.c_d, o.stable_window); }},
-      {"cd_stable_drift", "", [](T t, O o) { return window_drift(t.time, t.c_d, o.stable_window); }},
-      {"centre_dx_peak", "m", [](T t, O o) { return peak(t.time, t.centre_dx, o.peak_from); }, is_elastic},
-      {"centre_dx_peak_time", "s", [](T t, O o) { return peak_time(t.time, t.centre_dx, o.peak_from); }, is_elastic},
-      {"centre_dx_stable", "m", [](T t, O o) { return window_mean(t.time, t.centre_dx, o.stable_window); }, is_elastic},
-      {"centre_dx_stable_drift", "", [](T t, O o) { return window_drift(t.time, t.centre_dx, o.stable_window); },
-       is_elastic},
-      {"slip_normal_stable", "m/s", [](T t, O o) { return window_mean(t.time, t.slip_normal, o.stable_window); },
-       is_elastic},
-      {"face_difference_max", "m/s", [](T t, O) { return largest(t.face_difference); }, is_elastic},
-      {"slip_rms_stable", "m/s", [](T t, O o) { return window_mean(t.time, t.slip_rms, o.stable_window); }, is_rigid},
-      {"wake_length", "", [](T t, O) { return last(t.wake_length); }, has_wake},
+const std::vector<BodyDefinition>& body_results() {
+  static const std::vector<BodyDefinition> list{
+      {{"cd_peak", "", "c_d", peak}},
+      {{"cd_peak_time", "s", "c_d", peak_time}},
+      {{"cd_stable", "", "c_d", stable}},
+      {{"cd_stable_drift", "", "c_d", stable_drift}},
+      {{"centre_dx_peak", "m", "centre_dx", peak}, is_elastic},
+      {{"centre_dx_peak_time", "s", "centre_dx", peak_time}, is_elastic},
+      {{"centre_dx_stable", "m", "centre_dx", stable}, is_elastic},
+      {{"centre_dx_stable_drift", "", "centre_dx", stable_drift}, is_elastic},
+      {{"slip_normal_stable", "m/s", "slip_normal", stable}, is_elastic},
+      {{"face_difference_max", "m/s", "face_difference", largest}, is_elastic},
+      {{"slip_rms_stable", "m/s", "slip_rms", stable}, is_rigid},
+      {{"wake_length", "", "wake_length", last}, has_wake},
   };
+  return list;
+}
+
+struct FlowDefinition : Definition {
+  bool (*applies)(const Case&) = [](const Case&) { return true; };
+};
+
+const std::vector<FlowDefinition>& flow_results() {
+  static const std::vector<FlowDefinition> list{
+      {{"mass_drift", "", "mass_drift", last}},
+  };
+  return list;
+}
+
+/// The results that a case has, each with the full name of its column.
+std::vector<Definition> results_of(const Case& c) {
+  std::vector<Definition> list;
+  const Body* body = summarised_body(c);
+  for (BodyDefinition d : body_results()) {
+    if (!body || !d.applies(*body)) continue;
+    d.column = body->name + "." + d.column;
+    list.push_back(d);
+  }
+  for (const FlowDefinition& d : flow_results()) {
+    if (d.applies(c)) list.push_back(d);
+  }
   return list;
 }
 
@@ -70,12 +104,7 @@ const std::vector<Definition>& definitions() {
 
 void Trace::transfer_state(Archive& archive) {
   archive.transfer("time", time);
-  archive.transfer("c_d", c_d);
-  archive.transfer("centre_dx", centre_dx);
-  archive.transfer("slip_normal", slip_normal);
-  archive.transfer("face_difference", face_difference);
-  archive.transfer("slip_rms", slip_rms);
-  archive.transfer("wake_length", wake_length);
+  for (auto& [name, values] : column) archive.transfer(name, values);
 }
 
 std::optional<double> window_mean(const Column& time, const Column& value, const std::array<double, 2>& window) {
@@ -100,10 +129,10 @@ std::optional<double> window_drift(const Column& time, const Column& value, cons
   return (*second - *first) / *whole;
 }
 
-std::vector<Result> summarise(const Trace& trace, const Body& body, const ResultOptions& options) {
+std::vector<Result> summarise(const Trace& trace, const Case& c) {
   std::vector<Result> results;
-  for (const Definition& d : definitions()) {
-    if (d.applies(body)) results.push_back({d.name, d.unit, d.value(trace, options)});
+  for (const Definition& d : results_of(c)) {
+    results.push_back({d.name, d.unit, d.value(trace.time, trace.column.at(d.column), c)});
   }
   return results;
 }
@@ -115,8 +144,9 @@ std::vector<Comparison> compare(const std::vector<Result>& results, const std::v
     comparison.reference = reference;
     const auto result = std::ranges::find(results, reference.name, &Result::name);
     if (result != results.end() && result->value) {
+      const double scale = reference.is_bound() ? 1.0 : std::abs(reference.value);
       comparison.value = result->value;
-      comparison.difference = (*result->value - reference.value) / std::abs(reference.value);
+      comparison.difference = (*result->value - reference.value) / scale;
       comparison.agrees = std::abs(comparison.difference) <= reference.within;
     }
     comparisons.push_back(comparison);
@@ -124,11 +154,9 @@ std::vector<Comparison> compare(const std::vector<Result>& results, const std::v
   return comparisons;
 }
 
-std::vector<std::string> result_names(const Body& body) {
+std::vector<std::string> result_names(const Case& c) {
   std::vector<std::string> names;
-  for (const Definition& d : definitions()) {
-    if (d.applies(body)) names.emplace_back(d.name);
-  }
+  for (const Definition& d : results_of(c)) names.push_back(d.name);
   return names;
 }
 

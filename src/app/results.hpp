@@ -1,7 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What a run comes down to: peaks, means over the stable window with their drift, and how they compare with references.
+// What a run comes down to: peaks, means over the stable window with their drift, last values, and how they compare
+// with references. A result is a statistic of one column of the history; results.cpp lists them, those of a body and
+// those of the flow.
 #pragma once
 
+#include <array>
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -11,16 +15,12 @@
 
 namespace drogue::app {
 
-/// The history of one body, one entry a row. A value belongs to the time since the row before, from 0 on.
+/// The history of a run, one entry a row. A value belongs to the time since the row before, from 0 on.
 struct Trace {
-  std::vector<double> time;  ///< [s]
-  std::vector<double> c_d;
-  std::vector<double> centre_dx;        ///< [m]
-  std::vector<double> slip_normal;      ///< [m/s]
-  std::vector<double> face_difference;  ///< [m/s]
-  std::vector<double> slip_rms;         ///< [m/s]
-  std::vector<double> wake_length;      ///< in widths of the body
+  std::vector<double> time;                           ///< [s]
+  std::map<std::string, std::vector<double>> column;  ///< named as in history.csv: "mass_drift", "plate.c_d"
 
+  /// Takes the columns that are there.
   void transfer_state(Archive& archive);
 };
 
@@ -32,7 +32,7 @@ struct Result {
 struct Comparison {
   Reference reference;
   std::optional<double> value;
-  double difference = 0.0;  ///< relative
+  double difference = 0.0;  ///< relative, or in full from a reference of zero
   bool agrees = false;
 };
 
@@ -44,11 +44,11 @@ std::optional<double> window_mean(const std::vector<double>& time, const std::ve
 std::optional<double> window_drift(const std::vector<double>& time, const std::vector<double>& value,
                                    const std::array<double, 2>& window);
 
-/// The results that such a body has.
-std::vector<Result> summarise(const Trace& trace, const Body& body, const ResultOptions& options);
+/// The results that the case has; `trace` holds its columns.
+std::vector<Result> summarise(const Trace& trace, const Case& c);
 std::vector<Comparison> compare(const std::vector<Result>& results, const std::vector<Reference>& references);
 
-/// Names of the results that such a body has, which references may name.
-std::vector<std::string> result_names(const Body& body);
+/// Names of the results that the case has, which references may name.
+std::vector<std::string> result_names(const Case& c);
 
 }  // namespace drogue::app

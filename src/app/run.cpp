@@ -105,7 +105,7 @@ Summary summarise_run(const Case& c, const Simulation& simulation, const Recorde
                   {"structure", structure / wall_seconds},
                   {"io", output_seconds / wall_seconds},
                   {"other", (wall_seconds - stepping - output_seconds) / wall_seconds}};
-  if (const Body* body = summarised_body(c)) s.results = summarise(recorder.trace(), *body, c.results);
+  s.results = summarise(recorder.trace(), c);
   s.references = compare(s.results, c.references);
   return s;
 }

@@ -20,8 +20,27 @@ Json number(const std::optional<double>& value) { return value ? Json(*value) : 
 std::string text(const std::optional<double>& value) { return value ? fmt::format("{:.4g}", *value) : "-"; }
 
 std::string verdict(const Comparison& c) {
-  if (!c.value) return "the run ended before";
-  return fmt::format("{:+.1f} %, {}", 100.0 * c.difference, c.agrees ? "agrees" : "differs");
+  const Reference& r = c.reference;
+  const char* agrees = c.agrees ? "agrees" : "differs";
+  if (r.is_bound()) return fmt::format("   {:>10}  {} ({})", fmt::format("< {:.4g}", r.within), agrees, r.source);
+  const std::string found =
+      c.value ? fmt::format("{:+.1f} %, {}", 100.0 * c.difference, agrees) : "the run ended before";
+  return fmt::format("   {:>10}  {} (within {:.0f} %; {})", text(r.value), found, 100.0 * r.within, r.source);
+}
+
+Json to_json(const Comparison& c) {
+  const Reference& r = c.reference;
+  Json json{{"value", number(c.value)}};
+  if (r.is_bound()) {
+    json["below"] = r.within;
+  } else {
+    json["reference"] = r.value;
+    json["within"] = r.within;
+    json["difference"] = c.value ? Json(c.difference) : Json(nullptr);
+  }
+  json["agrees"] = c.agrees;
+  json["source"] = r.source;
+  return json;
 }
 
 }  // namespace
@@ -48,12 +67,7 @@ std::string to_json(const Summary& s) {
   json["results"] = Json::object();
   for (const Result& result : s.results) json["results"][result.name] = number(result.value);
   json["references"] = Json::object();
-  for (const Comparison& c : s.references) {
-    json["references"][c.reference.name] = {
-        {"value", number(c.value)},     {"reference", c.reference.value},
-        {"within", c.reference.within}, {"difference", c.value ? Json(c.difference) : Json(nullptr)},
-        {"agrees", c.agrees},           {"source", c.reference.source}};
-  }
+  for (const Comparison& c : s.references) json["references"][c.reference.name] = to_json(c);
   return json.dump(2) + '\n';
 }
 
@@ -79,9 +93,7 @@ void print_summary(const Summary& s, Log& log) {
     const std::string name = result.unit.empty() ? result.name : fmt::format("{} [{}]", result.name, result.unit);
     std::string line = fmt::format("{:<24} {:>10}", name, text(result.value));
     for (const Comparison& c : s.references) {
-      if (c.reference.name != result.name) continue;
-      line += fmt::format("   {:>10}  {} (within {:.0f} %; {})", text(c.reference.value), verdict(c),
-                          100.0 * c.reference.within, c.reference.source);
+      if (c.reference.name == result.name) line += verdict(c);
     }
     log.info("{}", line);
   }

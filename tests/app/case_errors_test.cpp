@@ -263,6 +263,9 @@ TEST(CaseErrors, values_must_fit_each_other) {
       {"cd_stable =", "cd_stabel =",
        "case.toml:40: reference.cd_stabel is not the name of a result; did you mean cd_stable?"},
       {"value = 1.18", "value = 0", "case.toml:40: reference.cd_stable.value = 0; a relative difference"},
+      {"value = 1.18", "below = 0",
+       "case.toml:40: reference.cd_stable.below = 0 is out of range; expected a number above 0"},
+      {"value = 1.18", "value = 1.18, below = 0.1", "case.toml:40: reference.cd_stable.value "},
   });
 }
 

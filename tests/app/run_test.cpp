@@ -70,7 +70,7 @@ TEST_F(Run, runs_without_a_body) {
   folder_.write("case.toml", text.erase(text.find("[reference]")));
   EXPECT_EQ(run_case(options_), 0);
   EXPECT_EQ(history().front(), "time [s],max_mach [1],mass_drift [1],cell_updates [1],mlups [1e6/s]");
-  EXPECT_TRUE(summary()["results"].empty());
+  EXPECT_TRUE(summary()["results"]["mass_drift"].is_number());
 }
 
 TEST_F(Run, never_overwrites_without_force) {
