@@ -1,13 +1,12 @@
 #!/bin/bash
 # SPDX-License-Identifier: GPL-3.0-or-later
-# Runs the rigid bodies over grids, deltas and time steps, and writes the table of docs/validation.md. A run that exists is kept,
-# so the table can be extended one run at a time: tools/validate_fluid.sh [NAME...] makes the runs named, without names it makes
-# all; with --table it only writes the table from what is there. DROGUE names another program than ./drogue.
+# Runs the rigid bodies over grids, deltas and time steps, and writes their table of docs/validation.md:
+# tools/validate_fluid.sh [NAME...] makes the runs named, without names it makes all; with --table it only writes the table
+# from what is there (tools/validation_runs.sh).
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
+. tools/validation_runs.sh
 runs=runs/validation_fluid
-page=docs/validation.md
-drogue=${DROGUE:-./drogue}
 
 # Of a case around a body of 1 m that refines by boxes: the finest cells 1/$1 m; the boxes are 2 and 4 times as coarse.
 cells() {
@@ -43,37 +42,8 @@ matrix() {
   for n in 16 24 32; do echo "plate-$n|plate_normal|$n cells|$(cells $n)"; done
 }
 
-value() { sed -n "s/^ *\"$2\": \([-0-9.e+]*\|null\|true\|false\),\{0,1\}$/\1/p" "$1" | head -n 1; }
-
-row() {
-  local name=$1 what=$2 summary=$runs/$1/summary.json key results=()
-  [[ -f $summary ]] || return 0
-  for key in cd_stable cd_stable_drift cd_peak wake_length slip_rms_stable; do
-    results+=("$(value "$summary" $key | awk '{ printf $1 == "null" || $1 == "" ? "-" : "%.4g", $1 }')")
-  done
-  [[ $(value "$summary" finished) == true ]] || what+=" (ended at $(value "$summary" t_end | awk '{ printf "%.2f", $1 }') s)"
-  printf '| `%s` | %s | %s | %s | %s | %s | %s |\n' "$name" "$what" "${results[@]}"
-}
-
-write_table() {
-  local table name what
-  table=$(mktemp)
-  {
-    echo '| run | cells across the body; what differs | C_D stable | drift | C_D peak | wake length | slip, rms [m/s] |'
-    echo '|---|---|---|---|---|---|---|'
-    while IFS='|' read -r name _ what _; do row "$name" "$what"; done < <(matrix)
-  } >"$table"
-  sed -i -e "/<!-- rigid bodies -->/,/<!-- end -->/ { /<!--/! d }" -e "/<!-- rigid bodies -->/r $table" "$page"
-  rm "$table"
-}
-
-if [[ ${1:-} != --table ]]; then
-  while IFS='|' read -r name folder what arguments; do
-    [[ $# -eq 0 || " $* " == *" $name "* ]] || continue
-    [[ -f $runs/$name/summary.json ]] && continue
-    echo "$name: $what"
-    # shellcheck disable=SC2086
-    $drogue run cases/$folder $arguments -o "$runs/$name" --force --quiet </dev/null || echo "  exit code $?"
-  done < <(matrix)
-fi
-write_table
+[[ ${1:-} == --table ]] || make_runs "$@"
+{
+  heading run 'cells across the body; what differs' 'C_D stable' drift 'C_D peak' 'wake length' 'slip, rms [m/s]'
+  rows '' cd_stable cd_stable_drift cd_peak wake_length slip_rms_stable
+} | write_table 'rigid bodies'

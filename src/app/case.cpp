@@ -14,6 +14,9 @@ bool has_wake(const Body& body) {
   return rigid && rigid->shape.width > 0.0 && rigid->motion.is_still();
 }
 
+bool measures_energy(const Case& c) { return c.measure.energy; }
+bool measures_error(const Case& c) { return c.measure.exact_velocity.has_value(); }
+
 int level_of(double coarsest, double spacing) {
   const double level = std::log2(coarsest / spacing);
   const double nearest = std::round(level);

@@ -2,6 +2,7 @@
 // A case: everything that decides a run, in SI, read and validated. Plain data; `case_reader` fills it.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <filesystem>
 #include <map>
@@ -21,6 +22,8 @@
 #include "ib/rigid_body.hpp"
 
 namespace drogue::app {
+
+struct Case;
 
 /// Cells of at most `spacing` in a box, or within `distance` of a body and of the places it moves through.
 struct Region {
@@ -68,6 +71,38 @@ bool is_rigid(const Body& body);
 /// Whether it stands still and has a width, by which the length of its wake is told.
 bool has_wake(const Body& body);
 
+/// Points (x, y).
+struct Curve {
+  std::vector<double> x, y;
+};
+
+/// A straight line along which the flow is sampled.
+struct Profile {
+  std::string name;
+  Vec3 from = Vec3::Zero(), to = Vec3::Zero();  ///< [m]
+  int points = 0;
+  int component = 0;  ///< of the velocity that the reference holds
+  Curve reference;    ///< of distance from the beginning [m] and velocity [m/s]; may be empty
+
+  bool has_reference() const { return !reference.x.empty(); }
+  /// The point at a distance [m] from the beginning.
+  Vec3 at(double distance) const {
+    const double share = std::min(1.0, distance / (to - from).norm());
+    return (1.0 - share) * from + share * to;  // which is in the domain if both ends are
+  }
+};
+
+/// What is measured of the flow besides what every run tells.
+struct Measure {
+  bool energy = false;
+  Curve dissipation_reference;  ///< time and dissipation, in units of reference velocity and length; may be empty
+  std::optional<std::array<Expression, 3>> exact_velocity;  ///< [m/s]
+  std::vector<Profile> profiles;
+};
+
+bool measures_energy(const Case& c);
+bool measures_error(const Case& c);
+
 /// Intervals between outputs [s]; 0 for none (history: every coarse step).
 struct Output {
   double history = 0.0, fluid = 0.0, canopy = 0.0;
@@ -103,6 +138,7 @@ struct Case {
   std::vector<Region> regions;
   std::vector<Body> bodies;
   double end = 0.0;  ///< [s]
+  Measure measure;
   Output output;
   ResultOptions results;
   std::vector<Reference> references;

@@ -162,21 +162,51 @@ void check_rigid(const Case& c, const std::string& key, const RigidBody& body) {
   }
 }
 
+/// Names become parts of columns and files.
+void check_name(const Case& c, const std::string& key, const std::string& name) {
+  const bool plain = !name.empty() && std::ranges::all_of(name, [](unsigned char letter) {
+    return std::isalnum(letter) || letter == '_' || letter == '-';
+  });
+  if (!plain) fail(c, key + ".name", fmt::format("= \"{}\" is no plain name; expected letters, digits, _ and -", name));
+}
+
 void check_bodies(const Case& c) {
   for (std::size_t i = 0; i < c.bodies.size(); ++i) {
     const Body& body = c.bodies[i];
     const std::string key = "body." + body.name;
-    const bool plain = !body.name.empty() && std::ranges::all_of(body.name, [](unsigned char letter) {
-      return std::isalnum(letter) || letter == '_' || letter == '-';
-    });
-    if (!plain) {
-      fail(c, key + ".name", fmt::format("= \"{}\" is no plain name; expected letters, digits, _ and -", body.name));
-    }
+    check_name(c, key, body.name);
     for (std::size_t j = 0; j < i; ++j) {
       if (c.bodies[j].name == body.name) fail(c, key + ".name", "is given to two bodies");
     }
     if (const auto* elastic = std::get_if<ElasticBody>(&body.kind)) check_elastic(c, key, *elastic);
     if (const auto* rigid = std::get_if<RigidBody>(&body.kind)) check_rigid(c, key, *rigid);
+  }
+}
+
+void check_profile(const Case& c, const std::string& key, const Profile& profile) {
+  check_name(c, key, profile.name);
+  for (const auto& [end, place] : {std::pair{".from", profile.from}, {".to", profile.to}}) {
+    if (c.domain.box.contains(place)) continue;
+    fail(c, key + end, fmt::format("= {} lies outside the domain", write_value(place)));
+  }
+  const double length = (profile.to - profile.from).norm();
+  if (length == 0.0) fail(c, key + ".to", "is where the line begins");
+  for (const double distance : profile.reference.x) {
+    if (distance >= 0.0 && distance <= length * (1.0 + 1e-9)) continue;
+    fail(c, key + ".reference", fmt::format("has a point {} m from the beginning of a line of {} m", distance, length));
+  }
+}
+
+void check_measure(const Case& c) {
+  if (c.measure.energy && c.reference_length == 0.0) {
+    fail(c, "measure.energy", "= true needs fluid.reference_length, in whose units the dissipation is told");
+  }
+  for (std::size_t i = 0; i < c.measure.profiles.size(); ++i) {
+    const std::string key = "measure.profile." + c.measure.profiles[i].name;
+    check_profile(c, key, c.measure.profiles[i]);
+    for (std::size_t j = 0; j < i; ++j) {
+      if (c.measure.profiles[j].name == c.measure.profiles[i].name) fail(c, key + ".name", "is given to two profiles");
+    }
   }
 }
 
@@ -215,6 +245,7 @@ void check_case(const Case& c) {
   check_grid(c);
   check_fluid(c);
   check_bodies(c);
+  check_measure(c);
   check_results(c);
 }
 

@@ -3,10 +3,12 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "app/body_reader.hpp"
 #include "app/case_checks.hpp"
+#include "app/measure_reader.hpp"
 #include "app/section.hpp"
 #include "app/value.hpp"
 #include "core/error.hpp"
@@ -155,6 +157,11 @@ void read_fluid(Section section, Case& c) {
            "cells that reference_velocity crosses in a time step; sets the step and the Mach number, sqrt(3) times it",
        .fallback = 0.05,
        .range = positive});
+  fluid.force = section.get<Formulas>(
+      "force", {.unit = "N/m^3", .doc = "on the whole fluid, formulas of t", .fallback = Formulas{}});
+  if (std::ranges::any_of(fluid.force, &Expression::depends_on_place)) {
+    section.fail("force", "depends on the place; expected formulas of t");
+  }
   read_collision(section, fluid);
   read_initial_state(section, c);
 }
@@ -235,6 +242,7 @@ Case read_all(const Document& document, Record& record) {
   root.each("body", "a body in the flow", [&](Section& body) { c.bodies.push_back(read_body(body, c)); });
   Section time = root.section("time", "the run");
   c.end = time.get<double>("end", {.unit = "s", .doc = "the run starts at 0", .range = positive});
+  c.measure = read_measure(root.section("measure", "what is measured of the flow, beyond what every run tells"));
   read_output(root.section("output", "what is written, and when"), c);
   read_results(root.section("results", "what is summarised at the end"), c);
   root.section("reference", "published results")

@@ -9,6 +9,7 @@
 #include <filesystem>
 
 #include "app/inspect.hpp"
+#include "app/plot.hpp"
 #include "app/run.hpp"
 #include "app/version.hpp"
 #include "core/error.hpp"
@@ -84,6 +85,11 @@ int run_command(const std::string& program, std::vector<std::string> arguments) 
   CLI::App* params_command = app.add_subcommand("params", "list the keys of a case, with units and defaults");
   params_command->add_option("KEY", key, "a table (fluid) or a key (fluid.density)");
 
+  fs::path picture;
+  CLI::App* plot_command = app.add_subcommand("plot", "draw what a run gave, against the references of its case");
+  plot_command->add_option("RUN", path, "folder of the run")->required();
+  plot_command->add_option("-o,--output", picture, "the picture (default: RUN/plot.png)");
+
   app.add_subcommand("info", "version, compiler, processor, libraries");
   app.add_subcommand("render", "pictures of a run (drogue-render)");
 
@@ -100,6 +106,7 @@ int run_command(const std::string& program, std::vector<std::string> arguments) 
   if (*run_command) return run_case(run);
   std::string text = build_info();
   if (*check_command) text = check_report(path, overrides);
+  if (*plot_command) text = plot_run(path, picture);
   if (*params_command) text = list_keys(key);
   fmt::print("{}", text);
   return 0;

@@ -57,10 +57,22 @@ constexpr BodySource body_columns[] = {
     {{"wake_length", "1", [](B b) { return b.wake_length; }}, has_wake},
 };
 
+struct FlowSource : Source<FlowRow> {
+  bool (*applies)(const Case&) = [](const Case&) { return true; };
+};
+
+using F = const FlowRow&;
+constexpr FlowSource flow_columns[] = {
+    {{"max_mach", "1", [](F f) { return f.max_mach; }}},
+    {{"mass_drift", "1", [](F f) { return f.mass_drift; }}},
+    {{"kinetic_energy", "m^2/s^2", [](F f) { return f.kinetic_energy; }}, measures_energy},
+    {{"dissipation", "m^2/s^3", [](F f) { return f.dissipation; }}, measures_energy},
+    {{"enstrophy_dissipation", "m^2/s^3", [](F f) { return f.enstrophy_dissipation; }}, measures_energy},
+    {{"velocity_error", "1", [](F f) { return f.velocity_error; }}, measures_error},
+};
+
 using R = const Row&;
 constexpr Source<Row> run_columns[] = {
-    {"max_mach", "1", [](R r) { return r.max_mach; }},
-    {"mass_drift", "1", [](R r) { return r.mass_drift; }},
     {"cell_updates", "1", [](R r) { return static_cast<double>(r.cell_updates); }},
     {"mlups", "1e6/s", [](R r) { return r.mlups; }},
 };
@@ -77,6 +89,13 @@ std::vector<History::Column> History::columns_of(const Case& c) {
       columns.push_back({fmt::format("{}.{}", c.bodies[i].name, s.name), s.unit,
                          [i, value = s.value](R row) { return value(row.bodies[i]); }});
     }
+  }
+  for (const FlowSource& s : flow_columns) {
+    if (s.applies(c)) columns.push_back({s.name, s.unit, [value = s.value](R row) { return value(row.flow); }});
+  }
+  for (std::size_t i = 0; i < c.measure.profiles.size(); ++i) {
+    const Profile& p = c.measure.profiles[i];
+    if (p.has_reference()) columns.push_back({"rms_" + p.name, "1", [i](R row) { return row.flow.profile_rms[i]; }});
   }
   for (const Source<Row>& s : run_columns) columns.push_back({s.name, s.unit, s.value});
   return columns;

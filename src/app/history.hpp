@@ -34,11 +34,21 @@ struct BodyRow {
   double wake_length = 0.0;  ///< in widths of the body
 };
 
+/// What a row tells of the flow; what the case does not ask for is zero.
+struct FlowRow {
+  double max_mach = 0.0;
+  double mass_drift = 0.0;             ///< relative, since the start
+  double kinetic_energy = 0.0;         ///< per mass [m^2/s^2]
+  double dissipation = 0.0;            ///< what the energy lost, mean since the row before [m^2/s^3]
+  double enstrophy_dissipation = 0.0;  ///< 2 nu times the enstrophy [m^2/s^3]
+  double velocity_error = 0.0;         ///< relative
+  std::vector<double> profile_rms;     ///< over the reference velocity, profile by profile
+};
+
 struct Row {
   double time = 0.0;  ///< [s]
   std::vector<BodyRow> bodies;
-  double max_mach = 0.0;
-  double mass_drift = 0.0;        ///< relative, since the start
+  FlowRow flow;
   std::int64_t cell_updates = 0;  ///< since the start
   double mlups = 0.0;             ///< million cell updates a second, since the row before
 };

@@ -5,11 +5,12 @@ namespace drogue::app {
 
 Recorder::Recorder(const Case& c, const Simulation& simulation, const std::filesystem::path& folder)
     : case_(c),
+      folder_(folder),
       flow_direction_(flow_direction(c)),
       history_(folder / "history.csv", c),
       row_due_(c.output.history, Schedule::Zero::always),
       snapshots_(c.output, folder),
-      mass_at_start_(simulation.fluid().mass_and_momentum()[0]) {}
+      flow_(c, simulation.fluid()) {}
 
 void Recorder::start(const Simulation& simulation) {
   const Timed timed(watch_);
@@ -29,7 +30,7 @@ void Recorder::resume(const Simulation& simulation) {
 void Recorder::transfer_state(Archive& archive) {
   archive.transfer("history", history_);
   archive.transfer("snapshots", snapshots_);
-  archive.transfer("mass_at_start", mass_at_start_);
+  archive.transfer("flow", flow_);
   archive.transfer("cell_updates_at_row", updates_at_row_);
   archive.transfer("seconds_at_row", seconds_at_row_);
   archive.transfer("time_spent", watch_);
@@ -39,6 +40,11 @@ void Recorder::record(const Simulation& simulation, bool last) {
   const Timed timed(watch_);
   if (row_due_.due(simulation.time(), simulation.fluid().coarse_dt()) || last) write_row(simulation);
   snapshots_.write_due(simulation.fluid(), simulation.bodies());
+}
+
+void Recorder::finish(const Simulation& simulation) {
+  const Timed timed(watch_);
+  flow_.write_profiles(folder_, simulation.fluid());
 }
 
 std::optional<double> Recorder::c_d() const {
@@ -59,8 +65,7 @@ void Recorder::write_row(const Simulation& simulation) {
     row.bodies.push_back(body->measure(fluid));
     add_coefficients(body->description, row.bodies.back());
   }
-  row.max_mach = fluid.statistics().max_mach;
-  row.mass_drift = fluid.mass_and_momentum()[0] / mass_at_start_ - 1.0;
+  row.flow = flow_.measure(fluid);
   row.cell_updates = updates;
   row.mlups = mlups_;
   history_.append(row);

@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "app/case.hpp"
+#include "app/flow_measurements.hpp"
 #include "app/history.hpp"
 #include "app/schedule.hpp"
 #include "app/simulation.hpp"
@@ -28,6 +29,9 @@ class Recorder {
   /// To be called after every step; the `last` one gets a row in any case.
   void record(const Simulation& simulation, bool last);
 
+  /// To be called when the run ends as it should.
+  void finish(const Simulation& simulation);
+
   /// The rows so far.
   const Trace& trace() const { return history_.trace(); }
   std::optional<double> c_d() const;                   ///< of the last row, of the body that is summarised
@@ -41,11 +45,12 @@ class Recorder {
   void add_coefficients(const Body& body, BodyRow& row) const;
 
   const Case& case_;
+  std::filesystem::path folder_;
   Vec3 flow_direction_;
   History history_;
   Schedule row_due_;
   Snapshots snapshots_;
-  double mass_at_start_;
+  FlowMeasurements flow_;
   std::int64_t updates_at_row_ = 0;
   double seconds_at_row_ = 0.0, mlups_ = 0.0;
   Stopwatch watch_;

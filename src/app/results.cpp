@@ -30,6 +30,31 @@ Number peak_time(const Column& time, const Column& value, const Case& c) {
   return row ? Number(time[*row]) : std::nullopt;
 }
 
+/// Top (x, y) of the parabola through the largest value and those beside it, for means since the row before, which
+/// belong to the middle of their row; nothing while the largest is the first or the last.
+std::optional<std::array<double, 2>> peak_of_means(const Column& time, const Column& value, const Case& c) {
+  const auto row = peak_row(time, value, c);
+  if (!row || *row == 0 || *row + 1 == time.size()) return std::nullopt;
+  const std::size_t i = *row;
+  const auto middle = [&](std::size_t k) { return 0.5 * (time[k] + (k > 0 ? time[k - 1] : 0.0)); };
+  const double before = middle(i - 1) - middle(i), after = middle(i + 1) - middle(i);
+  const double slope_before = (value[i - 1] - value[i]) / before, slope_after = (value[i + 1] - value[i]) / after;
+  const double curvature = (slope_after - slope_before) / (after - before);
+  const double slope = slope_before - curvature * before;
+  if (curvature >= 0.0) return std::array{middle(i), value[i]};
+  return std::array{middle(i) - 0.5 * slope / curvature, value[i] - 0.25 * slope * slope / curvature};
+}
+
+Number dissipation_peak(const Column& time, const Column& value, const Case& c) {
+  const auto top = peak_of_means(time, value, c);
+  return top ? Number((*top)[1] * c.reference_length / std::pow(c.fluid.reference_velocity, 3)) : std::nullopt;
+}
+
+Number dissipation_peak_time(const Column& time, const Column& value, const Case& c) {
+  const auto top = peak_of_means(time, value, c);
+  return top ? Number((*top)[0] * c.fluid.reference_velocity / c.reference_length) : std::nullopt;
+}
+
 Number stable(const Column& time, const Column& value, const Case& c) {
   return window_mean(time, value, c.results.stable_window);
 }
@@ -81,6 +106,9 @@ struct FlowDefinition : Definition {
 const std::vector<FlowDefinition>& flow_results() {
   static const std::vector<FlowDefinition> list{
       {{"mass_drift", "", "mass_drift", last}},
+      {{"dissipation_peak", "", "dissipation", dissipation_peak}, measures_energy},
+      {{"dissipation_peak_time", "", "dissipation", dissipation_peak_time}, measures_energy},
+      {{"velocity_error", "", "velocity_error", last}, measures_error},
   };
   return list;
 }
@@ -96,6 +124,9 @@ std::vector<Definition> results_of(const Case& c) {
   }
   for (const FlowDefinition& d : flow_results()) {
     if (d.applies(c)) list.push_back(d);
+  }
+  for (const Profile& p : c.measure.profiles) {
+    if (p.has_reference()) list.push_back({"rms_" + p.name, "", "rms_" + p.name, last});
   }
   return list;
 }

@@ -145,6 +145,7 @@ int run_case(const RunOptions& options) {
   try {
     Progress progress(simulation.time(), end, options.quiet);
     const bool arrived = step_until(end, simulation, recorder, checkpoints, progress, interrupt);
+    if (arrived) recorder.finish(simulation);
     ending = arrived ? Ending::finished : Ending::interrupted;
   } catch (const Diverged& error) {
     ending = Ending::diverged;

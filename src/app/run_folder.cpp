@@ -21,8 +21,8 @@ namespace fs = std::filesystem;
 
 constexpr std::array<std::string_view, 5> files{"case.resolved.toml", "history.csv", "summary.json", "log.txt",
                                                 "frames.csv"};
-constexpr std::array<std::string_view, 3> series_prefixes{"fluid", "canopy", "checkpoint"};
-constexpr std::array<std::string_view, 5> series_suffixes{".hdf", ".vtu", ".series", ".h5", ".part"};
+constexpr std::array<std::string_view, 4> series_prefixes{"fluid", "canopy", "checkpoint", "profile_"};
+constexpr std::array<std::string_view, 6> series_suffixes{".csv", ".hdf", ".vtu", ".series", ".h5", ".part"};
 
 bool belongs_to_run(const std::string& name) {
   for (std::string_view file : files) {

@@ -212,6 +212,7 @@ template std::optional<Pair> Section::find(const std::string&, const Key<Pair>&)
 template std::optional<Box> Section::find(const std::string&, const Key<Box>&);
 template std::optional<Expression> Section::find(const std::string&, const Key<Expression>&);
 template std::optional<Formulas> Section::find(const std::string&, const Key<Formulas>&);
+template std::optional<std::filesystem::path> Section::find(const std::string&, const Key<std::filesystem::path>&);
 template std::optional<std::string> Section::find(const std::string&, const Key<std::string>&);
 
 }  // namespace drogue::app

@@ -40,6 +40,7 @@ struct Key {
 
 template <class E>
 using Choices = std::vector<std::pair<std::string, E>>;
+inline const Choices<int> axes{{"x", 0}, {"y", 1}, {"z", 2}};
 
 class Section {
  public:

@@ -7,7 +7,6 @@
 
 namespace drogue::app {
 
-inline const Choices<int> axes{{"x", 0}, {"y", 1}, {"z", 2}};
 
 /// Throws InputError.
 geometry::Shape read_shape(Section section);

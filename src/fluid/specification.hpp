@@ -46,6 +46,7 @@ struct Specification {
   double eddy_constant = 0.0;  ///< of the model (lbm/eddy_viscosity.hpp)
   Storage storage = Storage::half_stress;
   std::array<Face, 6> face;
+  std::array<Expression, 3> force;             ///< on the whole fluid [N/m^3], functions of t
   std::array<Expression, 3> initial_velocity;  ///< [m/s] functions of x, y, z (t = 0)
   std::optional<Expression> initial_pressure;  ///< gauge [Pa]; zero if absent
 };

@@ -186,7 +186,7 @@ void write_along_y(std::byte* block, int m, const Index3& cell, int count, Vec<t
 /// Flattened, or GCC 12 passes the lines through memory from call to call.
 template <class S, int taps, bool midway>
 [[gnu::flatten]] void run(const ResampleJob& job, const amr::Forest& forest, const SourceFields<S>& source,
-                          double stress_factor, MomentField<S>& target) {
+                          const Conversion& conversion, MomentField<S>& target) {
   using Real = typename S::Real;
   using Plane = Vec<Real>[n][n];  // of lines, [z][p] with p the axis that is neither z nor along the lines
   const bool x_lines = job.axis[0].inputs() > 4;
@@ -212,10 +212,11 @@ template <class S, int taps, bool midway>
       for (int i = 0; i < z.outputs; ++i)
         for (int c = 0; c < p.outputs; ++c) out[i][c] = z(i, &half[0][c], n);
     }
-    const Real factor = m < 4 ? Real(1) : static_cast<Real>(stress_factor);
+    const Real factor = m < 4 ? Real(1) : static_cast<Real>(conversion.stress_factor);
+    const Real shift = m >= ux && m <= uz ? static_cast<Real>(conversion.velocity_shift[m - ux]) : Real(0);
     for (int r = 0; r < z.outputs; ++r)
       for (int c = 0; c < p.outputs; ++c) {
-        const Vec<Real> v = factor * combine_lanes(out[r][c]);
+        const Vec<Real> v = factor * combine_lanes(out[r][c]) + shift;
         const int zt = job.axis[2].begin + r + job.shift[2];
         if (x_lines)
           write_along_x<S>(target.row(job.target, across.begin + c + job.shift[1], zt), m, along.begin + job.shift[0],
@@ -264,23 +265,23 @@ Axis restriction_axis(int begin, int end) {
 }
 
 template <class S>
-void resample(const ResampleJob& job, const amr::Forest& forest, const SourceFields<S>& source, double stress_factor,
-              MomentField<S>& target) {
+void resample(const ResampleJob& job, const amr::Forest& forest, const SourceFields<S>& source,
+              const Conversion& conversion, MomentField<S>& target) {
   if (job.axis[0].taps == restriction_taps)
-    run<S, restriction_taps, false>(job, forest, source, stress_factor, target);
+    run<S, restriction_taps, false>(job, forest, source, conversion, target);
   else if (source.leaves_end)
-    run<S, interpolation_taps, true>(job, forest, source, stress_factor, target);
+    run<S, interpolation_taps, true>(job, forest, source, conversion, target);
   else
-    run<S, interpolation_taps, false>(job, forest, source, stress_factor, target);
+    run<S, interpolation_taps, false>(job, forest, source, conversion, target);
 }
 
 #ifdef __F16C__
-template void resample(const ResampleJob&, const amr::Forest&, const SourceFields<HalfStress>&, double,
+template void resample(const ResampleJob&, const amr::Forest&, const SourceFields<HalfStress>&, const Conversion&,
                        MomentField<HalfStress>&);
 #endif
-template void resample(const ResampleJob&, const amr::Forest&, const SourceFields<FloatStress>&, double,
+template void resample(const ResampleJob&, const amr::Forest&, const SourceFields<FloatStress>&, const Conversion&,
                        MomentField<FloatStress>&);
-template void resample(const ResampleJob&, const amr::Forest&, const SourceFields<DoubleStress>&, double,
+template void resample(const ResampleJob&, const amr::Forest&, const SourceFields<DoubleStress>&, const Conversion&,
                        MomentField<DoubleStress>&);
 
 }  // namespace drogue::lbm

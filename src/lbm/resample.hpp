@@ -51,9 +51,14 @@ struct SourceFields {
   const MomentField<S>& parents;
 };
 
-/// Runs one job; the stress is multiplied by `stress_factor` (it scales with tau and the time step).
+/// What differs between the states of two levels.
+struct Conversion {
+  double stress_factor = 1.0;          ///< of the stress, which scales with tau and the time step
+  Vec3 velocity_shift = Vec3::Zero();  ///< added to the velocity, lattice units (lbm/body_force.cpp)
+};
+
 template <class S>
-void resample(const ResampleJob& job, const amr::Forest& forest, const SourceFields<S>& source, double stress_factor,
-              MomentField<S>& target);
+void resample(const ResampleJob& job, const amr::Forest& forest, const SourceFields<S>& source,
+              const Conversion& conversion, MomentField<S>& target);
 
 }  // namespace drogue::lbm

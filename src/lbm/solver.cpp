@@ -20,6 +20,11 @@ Units units_of(const fluid::Specification& s) {
 
 double relaxation_time(double lattice_viscosity) { return 0.5 + lattice_viscosity / sound_speed_squared; }
 
+bool is_forced(const fluid::Specification& s) {
+  return std::ranges::any_of(s.force,
+                             [](const Expression& f) { return !f.is_constant() || f(Vec3::Zero(), 0.0) != 0.0; });
+}
+
 double eddy_factor(const fluid::Specification& s) {
   const bool linear = s.eddy_viscosity == fluid::EddyViscosity::vreman;
   return linear ? s.eddy_constant : s.eddy_constant * s.eddy_constant;
@@ -34,6 +39,7 @@ BasicSolver<S>::BasicSolver(amr::Forest forest, fluid::Specification specificati
       units_(units_of(specification_)),
       field_{MomentField<S>(forest_.size()), MomentField<S>(forest_.size())},
       fill_boundary_(forest_, specification_, units_),
+      forced_(is_forced(specification_)),
       force_(forest_),
       fine_velocity_(forest_),
       update_(block_update<S>(specification_.collision, specification_.eddy_viscosity)) {
@@ -46,6 +52,7 @@ BasicSolver<S>::BasicSolver(amr::Forest forest, fluid::Specification specificati
                     eddy_factor(specification_)};
     if (level > 0) l.from_coarser = plan_interpolation(forest_, level);
     if (level < forest_.finest()) l.to_parents = plan_restriction(forest_, level);
+    if (forced_) l.lead = half_kick(level, 0.0);
     build_sponge(level);
   }
   initialise();
@@ -62,6 +69,7 @@ void BasicSolver<S>::advance(int level, fluid::FineStepHook* hook) {
   Level& l = levels_[level];
   fill_boundary_(level, l.time, field_[l.now]);
   stream_and_collide(level);
+  if (forced_) accelerate(level);
   apply_sponge(level);
   if (level == forest_.finest()) {
     if (hook) couple(*hook);
@@ -137,12 +145,12 @@ void BasicSolver<S>::interpolate_rims(int level, bool midway) {
   const Level &fine = levels_[level], &coarse = levels_[level - 1];
   const MomentField<S>&start = field_[coarse.now], &end = field_[1 - coarse.now];
   const SourceFields<S> source{start, midway ? &end : nullptr, midway ? end : start};
-  const double factor = stress_ratio(level - 1, level);
+  const Conversion to_fine = conversion(level - 1, level);
   const int targets = static_cast<int>(fine.from_coarser.first.size()) - 1;
 #pragma omp parallel for schedule(dynamic, 4)
   for (int i = 0; i < targets; ++i)
     for (int j = fine.from_coarser.first[i]; j < fine.from_coarser.first[i + 1]; ++j)
-      resample(fine.from_coarser.job[j], forest_, source, factor, field_[fine.now]);
+      resample(fine.from_coarser.job[j], forest_, source, to_fine, field_[fine.now]);
 }
 
 template <class S>
@@ -150,18 +158,18 @@ void BasicSolver<S>::restrict_to_parents(int level, int field) {
   const Level &coarse = levels_[level], &fine = levels_[level + 1];
   const MomentField<S>& from = field_[fine.now];
   const SourceFields<S> source{from, nullptr, from};
-  const double factor = stress_ratio(level + 1, level);
+  const Conversion to_coarse = conversion(level + 1, level);
   const int targets = static_cast<int>(coarse.to_parents.first.size()) - 1;
 #pragma omp parallel for schedule(dynamic, 1)
   for (int i = 0; i < targets; ++i)
     for (int j = coarse.to_parents.first[i]; j < coarse.to_parents.first[i + 1]; ++j)
-      resample(coarse.to_parents.job[j], forest_, source, factor, field_[field]);
+      resample(coarse.to_parents.job[j], forest_, source, to_coarse, field_[field]);
 }
 
 /// Pneq = -2 rho c_s^2 tau S dt: per step of each level, so it scales with tau dt.
 template <class S>
-double BasicSolver<S>::stress_ratio(int from, int to) const {
-  return tau(to) * levels_[to].dt / (tau(from) * levels_[from].dt);
+Conversion BasicSolver<S>::conversion(int from, int to) const {
+  return {tau(to) * levels_[to].dt / (tau(from) * levels_[from].dt), levels_[to].lead - levels_[from].lead};
 }
 
 template <class S>
@@ -247,12 +255,14 @@ void BasicSolver<S>::read_block(int block, fluid::BlockFields& fields) const {
     return;
   }
   const Real velocity = static_cast<Real>(units_.velocity), pressure = static_cast<Real>(units_.pressure);
+  std::array<Real, 3> lead;
+  for (int a = 0; a < 3; ++a) lead[a] = static_cast<Real>(levels_[b.level].lead[a]);
   for (int r = 0; r < rows_per_block; ++r) {
     const std::byte* row = field_[levels_[b.level].now].block(block) + r * Layout::bytes;
     for (int x = 0; x < n; ++x) {
       fields.pressure[r * n + x] = static_cast<float>(pressure * Layout::macro(row, drho)[x]);
       for (int a = 0; a < 3; ++a)
-        fields.velocity[a][r * n + x] = static_cast<float>(velocity * Layout::macro(row, ux + a)[x]);
+        fields.velocity[a][r * n + x] = static_cast<float>(velocity * (Layout::macro(row, ux + a)[x] - lead[a]));
     }
   }
 }
@@ -272,7 +282,7 @@ std::array<double, 4> BasicSolver<S>::mass_and_momentum() const {
         for (int x = 0; x < n; ++x) {
           const double rho = 1.0 + double{Layout::macro(row, drho)[x]};
           sum[0] += rho;
-          for (int a = 0; a < 3; ++a) sum[1 + a] += rho * Layout::macro(row, ux + a)[x];
+          for (int a = 0; a < 3; ++a) sum[1 + a] += rho * (Layout::macro(row, ux + a)[x] - levels_[level].lead[a]);
         }
       }
       part[id - leaves.begin] = sum;
@@ -298,6 +308,7 @@ void BasicSolver<S>::transfer_state(Archive& archive) {
     archive.transfer(name + "/time", l.time);
     archive.transfer(name + "/moments", std::span(field.block(leaves.begin), bytes));
     for (int id = leaves.begin; id < leaves.end; ++id) field.refresh_columns(id);
+    if (forced_) l.lead = half_kick(level, l.time);
   }
   archive.transfer("cell_updates", statistics_.cell_updates);
   archive.transfer("max_mach", statistics_.max_mach);

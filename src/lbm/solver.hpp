@@ -15,6 +15,7 @@
 #include "lbm/boundary.hpp"
 #include "lbm/fine_velocity.hpp"
 #include "lbm/level_transfer.hpp"
+#include "lbm/resample.hpp"
 #include "lbm/stream_collide.hpp"
 
 namespace drogue::lbm {
@@ -54,9 +55,10 @@ class BasicSolver : public fluid::FluidSolver {
     std::vector<SpongeCell> cells;
   };
   struct Level {
-    double dt;          // [s]
-    double time = 0.0;  // [s] of the field `now`
-    int now = 0;        // which of the two fields holds the level's present
+    double dt;                 // [s]
+    double time = 0.0;         // [s] of the field `now`
+    int now = 0;               // which of the two fields holds the level's present
+    Vec3 lead = Vec3::Zero();  // of the stored velocity before that of the fluid, cells per step: lbm/body_force.cpp
     Relaxation relaxation;
     TransferPlan from_coarser, to_parents;
     std::vector<SpongeBlock> sponge;
@@ -69,11 +71,13 @@ class BasicSolver : public fluid::FluidSolver {
   void stream_and_collide(int level);
   void interpolate_rims(int level, bool midway);
   void restrict_to_parents(int level, int field);
+  Vec3 half_kick(int level, double time) const;
+  void accelerate(int level);
   void apply_sponge(int level);
   void couple(fluid::FineStepHook& hook);
   [[noreturn]] void report_divergence(int level) const;
   BlockNeighbourhood<S> neighbourhood(int block, int from);
-  double stress_ratio(int from, int to) const;
+  Conversion conversion(int from, int to) const;
 
   amr::Forest forest_;
   fluid::Specification specification_;
@@ -81,6 +85,7 @@ class BasicSolver : public fluid::FluidSolver {
   std::vector<Level> levels_;
   std::array<MomentField<S>, 2> field_;
   BoundaryFill<S> fill_boundary_;
+  bool forced_;  // by a body force
   fluid::ForceField force_;
   mutable FineVelocity<S> fine_velocity_;  // a cache
   BlockUpdate<S> update_;

@@ -9,15 +9,16 @@
 namespace drogue::lbm {
 namespace {
 
-/// Initial moments of one cell: Pneq = -2/3 rho tau S from central differences of the given velocity.
+/// Initial moments of one cell: Pneq = -2/3 rho tau S from central differences of the given velocity; the stored
+/// velocity is ahead by `lead` (lbm/body_force.cpp).
 std::array<double, moments> initial_moments(const fluid::Specification& s, const Vec3& x, double dx, double tau,
-                                            const Units& units) {
+                                            const Units& units, const Vec3& lead) {
   std::array<double, moments> m{};
   if (s.initial_pressure) m[drho] = (*s.initial_pressure)(x, 0.0) / units.pressure;
   Mat3 gradient = Mat3::Zero();  // [component][along], lattice units
   for (int a = 0; a < 3; ++a) {
     const Expression& u = s.initial_velocity[a];
-    m[ux + a] = u(x, 0.0) / units.velocity;
+    m[ux + a] = u(x, 0.0) / units.velocity + lead[a];
     for (int b = 0; b < 3 && !u.is_constant(); ++b)
       gradient(a, b) = (u(x + dx * Vec3::Unit(b), 0.0) - u(x - dx * Vec3::Unit(b), 0.0)) / (2.0 * units.velocity);
   }
@@ -61,7 +62,7 @@ void BasicSolver<S>::initialise_block(int block, const fluid::Specification& spe
     const Index3 at = amr::cell_at(cell);
     if (cell == 0 || !uniform)
       m = initial_moments(specification, forest_.cell_centre(block, at), forest_.spacing(level),
-                          levels_[level].relaxation.tau, units_);
+                          levels_[level].relaxation.tau, units_, levels_[level].lead);
     for (auto& field : field_)
       for (int i = 0; i < moments; ++i) Layout::put(field.row(block, at[1], at[2]), i, at[0], static_cast<Real>(m[i]));
   }

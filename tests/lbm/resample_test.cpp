@@ -64,9 +64,9 @@ TEST(LevelTransfer, restriction_and_interpolation_reproduce_cubic_fields) {
   ASSERT_FALSE(up.job.empty());
   ASSERT_FALSE(down.job.empty());
   const SourceFields<FloatStress> now{field, nullptr, field};
-  for (const ResampleJob& job : up.job) resample(job, forest, now, 1.0f, field);
+  for (const ResampleJob& job : up.job) resample(job, forest, now, {1.0}, field);
   EXPECT_LT(largest_error(forest, up, field, 1.0f), 2e-6);
-  for (const ResampleJob& job : down.job) resample(job, forest, now, 1.5f, field);
+  for (const ResampleJob& job : down.job) resample(job, forest, now, {1.5}, field);
   EXPECT_LT(largest_error(forest, down, field, 1.5f), 4e-6);
 }
 
@@ -84,8 +84,8 @@ TEST(LevelTransfer, every_rim_a_leaf_streams_from_is_filled) {
             RowLayout<FloatStress>::put(field.block(id) + r * RowLayout<FloatStress>::bytes, drho, x, 1e6f);
     }
   const SourceFields<FloatStress> now{field, nullptr, field};
-  for (const ResampleJob& job : plan_restriction(forest, 0).job) resample(job, forest, now, 1.0f, field);
-  for (const ResampleJob& job : plan_interpolation(forest, 1).job) resample(job, forest, now, 1.0f, field);
+  for (const ResampleJob& job : plan_restriction(forest, 0).job) resample(job, forest, now, {1.0}, field);
+  for (const ResampleJob& job : plan_interpolation(forest, 1).job) resample(job, forest, now, {1.0}, field);
   for (int level = 0; level < forest.levels(); ++level) {
     const auto leaves = forest.range(level, amr::Kind::leaf);
     for (int id = leaves.begin; id < leaves.end; ++id)

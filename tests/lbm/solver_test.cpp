@@ -9,6 +9,7 @@
 
 #include "../core/memory_archive.hpp"
 #include "core/error.hpp"
+#include "fluid/averages.hpp"
 #include "lbm/solver.hpp"
 
 namespace drogue::lbm {
@@ -40,24 +41,9 @@ double taylor_green_error(int across, int extra) {
   s.initial_pressure = Expression("0.25*(cos(4*pi*x)+cos(4*pi*y))");
   Solver solver(periodic_box(across, extra), s);
   while (solver.time() < 0.25) solver.step(nullptr);
-  const double k = 2.0 * std::numbers::pi, decay = std::exp(-2.0 * k * k * s.viscosity * solver.time());
-  double error = 0.0, norm = 0.0;
-  fluid::BlockFields fields;
-  for (int level = 0; level < solver.forest().levels(); ++level) {
-    const auto leaves = solver.forest().range(level, amr::Kind::leaf);
-    const double volume = std::pow(solver.forest().spacing(level), 3);
-    for (int id = leaves.begin; id < leaves.end; ++id) {
-      solver.read_block(id, fields);
-      for (int c = 0; c < amr::block_cells; ++c) {
-        const Vec3 x = solver.forest().cell_centre(id, amr::cell_at(c));
-        const double u = decay * std::sin(k * x[0]) * std::cos(k * x[1]);
-        const double v = -decay * std::cos(k * x[0]) * std::sin(k * x[1]);
-        error += volume * (std::pow(fields.velocity[0][c] - u, 2) + std::pow(fields.velocity[1][c] - v, 2));
-        norm += volume * (u * u + v * v);
-      }
-    }
-  }
-  return std::sqrt(error / norm);
+  const std::string decay = "exp(-0.16*pi^2*t)*";
+  return fluid::relative_velocity_error(solver, {Expression(decay + s.initial_velocity[0].text()),
+                                                 Expression(decay + s.initial_velocity[1].text()), Expression(0.0)});
 }
 
 TEST(Solver, taylor_green_converges_at_second_order_on_one_level) {
@@ -288,6 +274,44 @@ TEST(Solver, divergence_names_time_level_cell_and_position) {
     const std::string message = e.what();
     for (const char* part : {"time", "level", "cell", "position"})
       EXPECT_NE(message.find(part), std::string::npos) << message;
+  }
+}
+
+/// Relative error of the flow between walls at y = 0 and 1 that a force drives; the lower half refined `extra` times.
+double channel_error(int across, int extra) {
+  const double dx = 1.0 / across;
+  const amr::Domain domain{{Vec3::Zero(), Vec3(n * dx, 1.0, n * dx)}, dx, {true, false, true}};
+  const Box lower{Vec3(0.0, 0.0, 0.0), Vec3(1.0, 0.49, 1.0)};
+  auto s = specification(0.1, 0.1);
+  s.force = {Expression(0.8), Expression(0.0), Expression(0.0)};
+  s.face[2].type = s.face[3].type = fluid::Boundary::no_slip;
+  s.initial_velocity = {Expression("4*y*(1-y)"), Expression(0.0), Expression(0.0)};
+  Solver solver({domain, extra, amr::refine_box(lower, dx, dx / (1 << extra))}, s);
+  while (solver.time() < 3.0) solver.step(nullptr);
+  return fluid::relative_velocity_error(solver, s.initial_velocity);
+}
+
+TEST(Solver, flow_driven_by_a_force_converges_at_second_order) {
+  for (const int extra : {0, 1}) {
+    const double e32 = channel_error(32, extra), e64 = channel_error(64, extra);
+    std::printf("  %d levels   32: %.3e  64: %.3e  order %.2f\n", extra + 1, e32, e64, std::log2(e32 / e64));
+    EXPECT_GT(std::log2(e32 / e64), 1.9);
+  }
+}
+
+TEST(Solver, a_force_that_varies_in_time_gives_its_impulse) {
+  auto s = specification(0.01, 0.1);
+  s.density = 2.0;
+  s.force = {Expression("sin(3*t)"), Expression(0.0), Expression("1-t")};
+  Solver solver(periodic_box(32, 1), s);
+  while (solver.time() < 0.5) solver.step(nullptr);
+  const double t = solver.time(), volume = 0.5;
+  EXPECT_NEAR(solver.mass_and_momentum()[1], volume * (1.0 - std::cos(3.0 * t)) / 3.0, 1e-5);
+  EXPECT_NEAR(solver.mass_and_momentum()[3], volume * (t - 0.5 * t * t), 1e-5);
+  fluid::BlockFields fields;
+  for (int level = 0; level < 2; ++level) {
+    solver.read_block(solver.forest().range(level, amr::Kind::leaf).begin, fields);
+    EXPECT_NEAR(fields.velocity[0][0], (1.0 - std::cos(3.0 * t)) / 6.0, 1e-5) << "alike on both levels";
   }
 }
 
