@@ -20,13 +20,14 @@ find src tests bench -name '*.[ch]pp' | sort | xargs awk '
     below["fsi"]      = "core geometry amr fluid ib fem"
     below["io"]       = "core geometry amr fluid fem"
     below["app"]      = "core geometry amr fluid lbm ns ib fem fsi io"
+    below["bench"]    = "core geometry amr fluid lbm ns ib fem fsi io app"
     below["render"]   = "core amr fluid fem io"
 
     # Beginnings of the headers of packages, and where alone they may be included.
     home["p4est"] = home["p8est"] = home["sc.h"] = home["sc_"] = home["mpi.h"] = "src/amr/"
     home["hdf5"]      = "src/io/hdf5"
     home["toml++/"]   = "src/app/"
-    home["CLI/"]      = "src/app/ src/render/"
+    home["CLI/"]      = "src/app/ src/bench/ src/render/"
     home["nlohmann/"] = "src/io/ src/app/"
     home["muParser"]  = "src/core/"
     home["vtk"]       = "src/render/"
@@ -43,8 +44,8 @@ find src tests bench -name '*.[ch]pp' | sort | xargs awk '
   }
 
   FNR == 1 {
-    split(FILENAME, folder, "/")
-    layer = folder[1] == "src" ? folder[2] : ""
+    depth = split(FILENAME, folder, "/")
+    layer = folder[1] == "src" && depth > 2 ? folder[2] : ""
     if (layer != "" && !(layer in below)) offence("src/" layer " is not a layer")
     if ($0 != "// SPDX-License-Identifier: GPL-3.0-or-later") offence("the first line is not the SPDX line")
   }

@@ -90,6 +90,8 @@ int run_command(const std::string& program, std::vector<std::string> arguments) 
   plot_command->add_option("RUN", path, "folder of the run")->required();
   plot_command->add_option("-o,--output", picture, "the picture (default: RUN/plot.png)");
 
+  // its own command line, in a layer above
+  app.add_subcommand("bench", "speed, run time against error, stability");
   app.add_subcommand("info", "version, compiler, processor, libraries");
   app.add_subcommand("render", "pictures of a run (drogue-render)");
 

@@ -18,14 +18,6 @@ namespace drogue::app {
 
 namespace {
 
-std::string processor() {
-  std::ifstream stream("/proc/cpuinfo");
-  for (std::string line; std::getline(stream, line);) {
-    if (line.starts_with("model name")) return line.substr(line.find(':') + 2);
-  }
-  return "unknown";
-}
-
 std::string tuned_for() {
 #if defined(__AVX512F__)
   return "AVX-512";
@@ -50,10 +42,18 @@ std::string build_kind() {
 
 }  // namespace
 
+std::string processor_name() {
+  std::ifstream stream("/proc/cpuinfo");
+  for (std::string line; std::getline(stream, line);) {
+    if (line.starts_with("model name")) return line.substr(line.find(':') + 2);
+  }
+  return "unknown";
+}
+
 std::string build_info() {
   std::string text = fmt::format("drogue     {}\n", version);
   text += fmt::format("compiler   GCC-compatible {}, {}, for {}\n", __VERSION__, build_kind(), tuned_for());
-  text += fmt::format("processor  {}, {} threads\n", processor(), omp_get_max_threads());
+  text += fmt::format("processor  {}, {} threads\n", processor_name(), omp_get_max_threads());
   text += fmt::format(
       "libraries  p4est {}, HDF5 {}.{}.{}, Eigen {}.{}.{}, toml++ {}.{}.{}, spdlog {}.{}.{}, fmt {}.{}.{}, "
       "nlohmann-json {}.{}.{}\n",

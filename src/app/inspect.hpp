@@ -16,6 +16,9 @@ std::string check_report(const std::filesystem::path& path, const std::vector<st
 /// ("fluid.density") or its last part ("density"). Throws InputError with the nearest name if there is none.
 std::string list_keys(const std::string& filter);
 
+/// The processor's own name, "unknown" if it does not tell.
+std::string processor_name();
+
 /// `drogue info`: version, compiler, processor, threads, libraries.
 std::string build_info();
 

@@ -154,9 +154,11 @@ std::string panel(const CategoryMap& map, const MapFigure& figure, int number) {
     }
   }
   const std::string frame = "fill empty border rgb '#111111' linecolor rgb '#111111' linewidth 3";
-  if (map.framed) {
-    text += fmt::format("$frame_{} << END\n{} {}\nEND\n", number, (*map.framed)[1], (*map.framed)[0]);
-    drawn.push_back(fmt::format("$frame_{} using 1:2:(0.47):(0.47) with boxxyerror {} notitle", number, frame));
+  if (map.frame) {
+    const auto& f = *map.frame;
+    text += fmt::format("$frame_{} << END\n{} {} {} {}\nEND\n", number, f.column + 0.5 * (f.columns - 1),
+                        f.row + 0.5 * (f.rows - 1), 0.5 * f.columns - 0.03, 0.5 * f.rows - 0.03);
+    drawn.push_back(fmt::format("$frame_{} with boxxyerror {} notitle", number, frame));
   }
   if (number == 0 && !figure.frame_label.empty()) {
     drawn.push_back(fmt::format("keyentry with boxes {} title {}", frame, quoted(figure.frame_label)));

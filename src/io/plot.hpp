@@ -53,11 +53,15 @@ struct CategoryMap {
     int category = 0;
     std::string text;
   };
+  /// A rectangle of cells to point out.
+  struct Frame {
+    int row = 0, column = 0, rows = 1, columns = 1;
+  };
   std::string title;
   std::string x_label, y_label;
-  std::vector<std::string> columns, rows;         ///< labels of the cells along x and y
-  std::vector<std::vector<Cell>> cells = {};      ///< [row][column]
-  std::optional<std::array<int, 2>> framed = {};  ///< row and column of a cell to point out
+  std::vector<std::string> columns, rows;     ///< labels of the cells along x and y
+  std::vector<std::vector<Cell>> cells = {};  ///< [row][column]
+  std::optional<Frame> frame = {};
 };
 
 struct MapFigure {

@@ -31,7 +31,7 @@ io::Figure drag() {
 io::MapFigure survival() {
   io::CategoryMap map{"hrr", "lattice velocity", "Reynolds number", {"0.1", "0.2"}, {"10^2", "10^3"}};
   map.cells = {{{0, "a"}, {1, "b"}}, {{1, "c"}, {0, "d"}}};
-  map.framed = {1, 0};
+  map.frame = {1, 0, 1, 2};
   return {"Survival", {{"survived", "#88ccaa"}, {"diverged", "#cc6677"}}, "default", {map}};
 }
 
@@ -46,7 +46,7 @@ TEST(Plot, a_map_puts_each_cell_into_its_category) {
   const std::string script = io::gnuplot_script(survival(), "map.png");
   EXPECT_NE(script.find("$cells_0_0 << END\n0 0 \"a\"\n1 1 \"d\"\nEND"), std::string::npos) << script;
   EXPECT_NE(script.find("$cells_0_1 << END\n1 0 \"b\"\n0 1 \"c\"\nEND"), std::string::npos);
-  EXPECT_NE(script.find("$frame_0 << END\n0 1\nEND"), std::string::npos);
+  EXPECT_NE(script.find("$frame_0 << END\n0.5 1 0.97 0.47\nEND"), std::string::npos);
 }
 
 TEST(Plot, pictures_are_drawn_also_where_there_is_no_data) {

@@ -4,12 +4,16 @@
 
 #include <cstdio>
 #include <exception>
+#include <string_view>
 
 #include "app/command_line.hpp"
+#include "bench/command.hpp"
 #include "core/error.hpp"
 
 int main(int count, char** words) {
   try {
+    if (count > 1 && std::string_view(words[1]) == "bench")
+      return drogue::bench::run_command({words + 2, words + count});
     return drogue::app::run_command(words[0], {words + 1, words + count});
   } catch (const drogue::InputError& error) {
     fmt::print(stderr, "{}\n", error.what());

@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "bench/command.hpp"
+
+#include <fmt/format.h>
+#include <omp.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <fstream>
+#include <functional>
+#include <optional>
+#include <utility>
+
+#include "bench/machine.hpp"
+#include "bench/options.hpp"
+#include "bench/report.hpp"
+#include "bench/stability.hpp"
+#include "core/error.hpp"
+#include "core/nearest_name.hpp"
+
+namespace drogue::bench {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+struct Family {
+  std::string name, title;
+  std::function<Report(const Options&)> measure;
+};
+
+const std::vector<Family> families{{"stability", "Stability", measure_stability}};
+
+const Family& family_of(const std::string& name) {
+  const auto family = std::ranges::find(families, name, &Family::name);
+  if (family != families.end()) return *family;
+  std::vector<std::string> names;
+  for (const Family& f : families) names.push_back(f.name);
+  throw InputError(
+      fmt::format("{} is no benchmark{}; there are {}", name, did_you_mean(name, names), fmt::join(names, ", ")));
+}
+
+void write_text(const fs::path& file, const std::string& text) {
+  std::ofstream stream(file);
+  stream << text << std::flush;
+  if (!stream) throw InputError(fmt::format("{} cannot be written", file.string()));
+}
+
+}  // namespace
+
+int run_command(std::vector<std::string> arguments) {
+  CLI::App app("Measures speed, run time against error, and stability; writes tables (CSV, Markdown) and figures.",
+               "drogue bench");
+  Options options;
+  std::vector<std::string> names;
+  std::optional<int> threads;
+  app.add_option("FAMILY", names, "kernel, accuracy, stability (default: all)");
+  app.add_option("-o,--output", options.folder, "folder of tables and figures (default: runs/bench)");
+  app.add_option("--only", options.only, "a part of a family, e.g. a flow; may be repeated")->allow_extra_args(false);
+  app.add_option("--threads", threads, "number of threads (default: all)")->check(CLI::PositiveNumber);
+  app.add_flag("--quick", options.quick, "seconds instead of minutes: to see that it works");
+  std::ranges::reverse(arguments);  // as CLI11 wants them
+  try {
+    app.parse(arguments);
+  } catch (const CLI::Success& request) {
+    return app.exit(request);
+  } catch (const CLI::ParseError& error) {
+    throw InputError(fmt::format("{}; see {} --help", error.what(), app.get_name()));
+  }
+
+  std::vector<Family> wanted = names.empty() ? families : std::vector<Family>{};
+  for (const std::string& name : names) wanted.push_back(family_of(name));
+  if (threads) omp_set_num_threads(*threads);
+  fs::create_directories(options.folder);
+  bool drawn = true;
+  for (const Family& family : wanted) {
+    const Report report = family.measure(options);
+    const std::string page = fmt::format("## {}\n\n{}\n\n{}", family.title, describe_machine(), report.text);
+    write_text(options.folder / (family.name + ".md"), page);
+    fmt::print("\n{}", page);
+    drawn = drawn && report.drawn;
+  }
+  fmt::print("\nTables and figures are in {}\n", options.folder.string());
+  if (!drawn) fmt::print(stderr, "{}\n", io::no_gnuplot);
+  return 0;
+}
+
+}  // namespace drogue::bench
