@@ -119,7 +119,7 @@ std::vector<Map> all_maps(bool quick) {
 
 const std::vector<std::pair<std::string, io::Category>> categories{
     {outcome::survived, {"survived", "#8fc1a9"}},
-    {outcome::unbounded, {"arrived, out of bounds", "#f0d58c"}},
+    {outcome::unbounded, {"out of bounds", "#f0d58c"}},
     {outcome::diverged, {"ended with a message", "#d98880"}},
     {outcome::left, {"left the fine grid", "#b9a3d0"}},
     {outcome::refused, {"refused", "#cccccc"}},
@@ -192,7 +192,10 @@ io::CategoryMap::Cell cell_of(const ResultTable& table, const Job& job) {
 }
 
 io::MapFigure figure_of(const Map& map, const ResultTable& table) {
-  io::MapFigure figure{map.title, {}, "the defaults", {}, 2};
+  const char* note = map.bound == Bound::energy
+                         ? "largest kinetic energy over that at the start, or the time when the run ended"
+                         : "largest speed over that of the inlet, or the time when the run ended [s]";
+  io::MapFigure figure{map.title, {}, "the defaults", note, {}, 2};
   for (const auto& [name, category] : categories) figure.categories.push_back(category);
   for (const Value& panel : map.panels.values) {
     io::CategoryMap picture{map.panels.values.size() > 1 ? panel.label : "", map.columns.label, map.rows.label, {}, {}};

@@ -20,7 +20,7 @@ namespace fs = std::filesystem;
 
 // Distinct also in print and to the colour-blind, after P. Tol, "Colour schemes" (2021), "bright" darkened for lines.
 constexpr std::array palette{"#2f5d8a", "#c8493a", "#3f8f4f", "#d99a1c", "#7d4a9c", "#3aa0b0", "#8c6d4f", "#6b6b6b"};
-constexpr int panel_width = 900, panel_height = 620, heading = 40;  // pixels
+constexpr int panel_width = 900, panel_height = 620, heading = 40, map_footer = 90;  // pixels
 
 /// A string of a script.
 std::string quoted(const std::string& text) {
@@ -29,21 +29,41 @@ std::string quoted(const std::string& text) {
   return result + "'";
 }
 
-/// Terminal, file, and the grid of panels; `margins` of the panels if they are fixed.
-std::string opening(const fs::path& png, const std::string& title, std::size_t panels, int columns,
-                    const std::string& margins = "") {
-  const int across = std::min(columns, static_cast<int>(panels));
-  const int rows = (static_cast<int>(panels) + across - 1) / across;
-  std::string text = fmt::format(
+/// Panels in rows under a heading and over a footer, in pixels.
+struct Layout {
+  int columns, rows, footer;
+
+  Layout(std::size_t panels, int wanted_columns, int below = 0)
+      : columns(std::max(1, std::min(wanted_columns, static_cast<int>(panels)))),
+        rows((static_cast<int>(panels) + columns - 1) / columns),
+        footer(below) {}
+  int width() const { return columns * panel_width; }
+  int height() const { return heading + rows * panel_height + footer; }
+};
+
+/// Terminal and file.
+std::string opening(const fs::path& png, const Layout& layout) {
+  return fmt::format(
       "set encoding utf8\n"
       "set terminal pngcairo enhanced size {},{} font 'DejaVu Sans,13' background '#ffffff'\n"
       "set output {}\n"
       "set border 3 linecolor '#444444'\nset tics nomirror textcolor '#222222'\n"
       "set grid linecolor '#dddddd' linetype 1 linewidth 1\n"
       "set title font ',14'\n",
-      across * panel_width, rows * panel_height + (title.empty() ? 0 : heading), quoted(png.string()));
-  text += fmt::format("set multiplot layout {},{} {}", rows, across, margins);
+      layout.width(), layout.height(), quoted(png.string()));
+}
+
+/// The grid of panels; `margins` of the panels if they are fixed.
+std::string multiplot(const Layout& layout, const std::string& title, const std::string& margins = "") {
+  const std::string text = fmt::format("set multiplot layout {},{} {}", layout.rows, layout.columns, margins);
   return text + (title.empty() ? "\n" : fmt::format(" title {} font ',17'\n", quoted(title)));
+}
+
+/// Fixed margins of maps, whose one legend stands in the footer.
+std::string map_margins(const Layout& layout) {
+  const double w = layout.width(), h = layout.height();
+  return fmt::format("margins screen {:.4f},{:.4f},{:.4f},{:.4f} spacing screen {:.4f},{:.4f}", 110 / w, 1 - 30 / w,
+                     (layout.footer + 70) / h, 1 - (heading + 50) / h, 110 / w, 110 / h);
 }
 
 /// Ticks of a logarithmic axis are powers of ten where it spans several of them.
@@ -128,41 +148,59 @@ std::string ticks(char axis, const std::vector<std::string>& labels) {
                      static_cast<double>(labels.size()) - 0.5);
 }
 
+/// Column, row and text of the cells of a category; empty if there are none.
+std::string cells_of(const CategoryMap& map, int category) {
+  std::string text;
+  for (std::size_t row = 0; row < map.cells.size(); ++row) {
+    for (std::size_t column = 0; column < map.cells[row].size(); ++column) {
+      const auto& cell = map.cells[row][column];
+      if (cell.category == category) text += fmt::format("{} {} \"{}\"\n", column, row, cell.text);
+    }
+  }
+  return text;
+}
+
+constexpr const char* frame_style = "boxxyerror fill empty border rgb '#111111' linecolor rgb '#111111' linewidth 3";
+
+std::string fill_style(const Category& category) {
+  return fmt::format("fill solid noborder linecolor rgb '{}'", category.colour);
+}
+
+std::vector<std::string> legend(const MapFigure& figure) {
+  std::vector<std::string> entries;
+  for (int c = 0; c < static_cast<int>(figure.categories.size()); ++c) {
+    if (std::ranges::all_of(figure.maps, [&](const CategoryMap& map) { return cells_of(map, c).empty(); })) continue;
+    const Category& category = figure.categories[c];
+    entries.push_back(fmt::format("keyentry with boxes {} title {}", fill_style(category), quoted(category.label)));
+  }
+  if (!figure.frame_label.empty()) {
+    entries.push_back(fmt::format("keyentry with {} title {}", frame_style, quoted(figure.frame_label)));
+  }
+  return entries;
+}
+
 std::string panel(const CategoryMap& map, const MapFigure& figure, int number) {
   std::string text = fmt::format("set title {}\nset xlabel {}\nset ylabel {}\n", quoted(map.title), quoted(map.x_label),
                                  quoted(map.y_label));
   text += ticks('x', map.columns) + ticks('y', map.rows);
   std::vector<std::string> drawn;
-  for (std::size_t c = 0; c < figure.categories.size(); ++c) {
+  for (int c = 0; c < static_cast<int>(figure.categories.size()); ++c) {
+    const std::string cells = cells_of(map, c);
+    if (cells.empty()) continue;
     const auto name = fmt::format("cells_{}_{}", number, c);
-    text += fmt::format("${} << END\n", name);
-    for (std::size_t row = 0; row < map.cells.size(); ++row) {
-      for (std::size_t column = 0; column < map.cells[row].size(); ++column) {
-        const auto& cell = map.cells[row][column];
-        if (cell.category == static_cast<int>(c)) text += fmt::format("{} {} \"{}\"\n", column, row, cell.text);
-      }
-    }
-    text += "END\n";
-    const auto& category = figure.categories[c];
+    text += fmt::format("${} << END\n{}END\n", name, cells);
     drawn.push_back(
-        fmt::format("${} using 1:2:(0.47):(0.47) with boxxyerror fill solid noborder linecolor rgb '{}' notitle", name,
-                    category.colour));
+        fmt::format("${} using 1:2:(0.47):(0.47) with boxxyerror {} notitle", name, fill_style(figure.categories[c])));
     drawn.push_back(fmt::format("${} using 1:2:3 with labels font ',11' textcolor '#222222' notitle", name));
-    if (number == 0) {
-      drawn.push_back(fmt::format("keyentry with boxes fill solid noborder linecolor rgb '{}' title {}",
-                                  category.colour, quoted(category.label)));
-    }
   }
-  const std::string frame = "fill empty border rgb '#111111' linecolor rgb '#111111' linewidth 3";
   if (map.frame) {
     const auto& f = *map.frame;
     text += fmt::format("$frame_{} << END\n{} {} {} {}\nEND\n", number, f.column + 0.5 * (f.columns - 1),
                         f.row + 0.5 * (f.rows - 1), 0.5 * f.columns - 0.03, 0.5 * f.rows - 0.03);
-    drawn.push_back(fmt::format("$frame_{} with boxxyerror {} notitle", number, frame));
+    drawn.push_back(fmt::format("$frame_{} with {} notitle", number, frame_style));
   }
-  if (number == 0 && !figure.frame_label.empty()) {
-    drawn.push_back(fmt::format("keyentry with boxes {} title {}", frame, quoted(figure.frame_label)));
-  }
+  if (number == 0) std::ranges::copy(legend(figure), std::back_inserter(drawn));
+  if (drawn.empty()) drawn.emplace_back("-9 notitle");  // an empty map is still a map
   return text + fmt::format("plot {}\n", fmt::join(drawn, ", \\\n     "));
 }
 
@@ -193,19 +231,23 @@ std::string plain(const std::string& text) {
 }
 
 std::string gnuplot_script(const Figure& figure, const fs::path& png) {
-  std::string text = opening(png, figure.title, figure.plots.size(), figure.columns);
+  const Layout layout(figure.plots.size(), figure.columns);
+  std::string text = opening(png, layout) + multiplot(layout, figure.title);
   int number = 0;
   for (const Plot& plot : figure.plots) text += panel(plot, number++);
   return text + "unset multiplot\n";
 }
 
 std::string gnuplot_script(const MapFigure& figure, const fs::path& png) {
-  // margins of their own, since the one legend stands below all panels
-  std::string text = opening(png, figure.title, figure.maps.size(), figure.columns,
-                             "margins screen 0.08,0.98,0.14,0.90 spacing screen 0.09,0.13");
+  const Layout layout(figure.maps.size(), figure.columns, map_footer);
+  const double pixel = 1.0 / layout.height();
+  std::string text = opening(png, layout);
+  text += fmt::format("unset grid\nset label 1 {} at screen 0.5,{:.4f} center textcolor '#222222'\n",
+                      quoted(figure.note), 20 * pixel);
   text +=
-      "unset grid\nset key at screen 0.5,0.035 center horizontal Left reverse samplen 1 width 2 maxrows 1 textcolor "
-      "'#222222'\n";
+      fmt::format("set key at screen 0.5,{:.4f} center horizontal Left reverse samplen 1 width 2 textcolor '#222222'\n",
+                  65 * pixel);
+  text += multiplot(layout, figure.title, map_margins(layout));
   int number = 0;
   for (const CategoryMap& map : figure.maps) text += panel(map, figure, number++);
   return text + "unset multiplot\n";

@@ -66,8 +66,9 @@ struct CategoryMap {
 
 struct MapFigure {
   std::string title;
-  std::vector<Category> categories;
-  std::string frame_label;  ///< what the framed cells are
+  std::vector<Category> categories;  ///< those that no cell has are not in the legend
+  std::string frame_label;           ///< what the framed cells are
+  std::string note;                  ///< what the texts of the cells mean, one line below all
   std::vector<CategoryMap> maps;
   int columns = 1;
 };

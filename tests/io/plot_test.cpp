@@ -32,7 +32,7 @@ io::MapFigure survival() {
   io::CategoryMap map{"hrr", "lattice velocity", "Reynolds number", {"0.1", "0.2"}, {"10^2", "10^3"}};
   map.cells = {{{0, "a"}, {1, "b"}}, {{1, "c"}, {0, "d"}}};
   map.frame = {1, 0, 1, 2};
-  return {"Survival", {{"survived", "#88ccaa"}, {"diverged", "#cc6677"}}, "default", {map}};
+  return {"Survival", {{"survived", "#88ccaa"}, {"diverged", "#cc6677"}}, "default", "measured", {map}};
 }
 
 TEST(Plot, script_holds_the_data_and_leaves_gaps) {
