@@ -11,6 +11,7 @@
 #include <optional>
 #include <utility>
 
+#include "bench/kernel.hpp"
 #include "bench/machine.hpp"
 #include "bench/options.hpp"
 #include "bench/report.hpp"
@@ -29,7 +30,8 @@ struct Family {
   std::function<Report(const Options&)> measure;
 };
 
-const std::vector<Family> families{{"stability", "Stability", measure_stability}};
+const std::vector<Family> families{{"kernel", "Fluid kernel", measure_kernel},
+                                   {"stability", "Stability", measure_stability}};
 
 const Family& family_of(const std::string& name) {
   const auto family = std::ranges::find(families, name, &Family::name);

@@ -76,22 +76,22 @@ void step_to_end(app::Simulation& simulation, const app::Case& c, Bound bound, F
     fate.end = fluid.time();
     if (fate.end < sample * c.end / samples) continue;
     ++sample;
-    const double now = (energy ? kinetic_energy(fluid) : fluid.statistics().max_speed) / unit;
-    is_number = is_number && std::isfinite(now) && std::isfinite(fluid.mass_and_momentum()[0]);
-    fate.measure = std::max(fate.measure, now);
+    fate.last = (energy ? kinetic_energy(fluid) : fluid.statistics().max_speed) / unit;
+    fate.largest = std::max(fate.largest, fate.last);
+    is_number = is_number && std::isfinite(fate.last) && std::isfinite(fluid.mass_and_momentum()[0]);
   }
-  if (fate.measure > (energy ? largest_energy : largest_speed)) fate.outcome = outcome::unbounded;
+  if (fate.largest > (energy ? largest_energy : largest_speed)) fate.outcome = outcome::unbounded;
   if (!is_number) fate.outcome = outcome::silent;
 }
 
 }  // namespace
 
 Fate follow(const std::filesystem::path& file, const std::vector<std::string>& overrides,
-            std::optional<double> lattice_velocity, Bound bound, const std::filesystem::path& folder) {
+            const std::function<void(app::Case&)>& adjust, Bound bound, const std::filesystem::path& folder) {
   Fate fate{outcome::refused};
   try {
     app::Case c = app::read_case(file, overrides);
-    c.fluid.lattice_velocity = lattice_velocity.value_or(c.fluid.lattice_velocity);
+    adjust(c);
     const auto simulation = make_simulation(c, folder);
     step_to_end(*simulation, c, bound, fate);
   } catch (const Diverged& error) {

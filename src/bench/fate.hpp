@@ -3,9 +3,11 @@
 #pragma once
 
 #include <filesystem>
-#include <optional>
+#include <functional>
 #include <string>
 #include <vector>
+
+#include "app/case.hpp"
 
 namespace drogue::bench {
 
@@ -25,16 +27,17 @@ enum class Bound {
   speed,   ///< an open one: no speed beyond three times that of the inlet, after one tenth of the time
 };
 
+/// What is measured is the kinetic energy over that at the start, or the largest speed over that of the inlet.
 struct Fate {
   std::string outcome;
-  double end = 0.0;          ///< [s] reached
-  double measure = 0.0;      ///< largest kinetic energy over that at the start, or largest speed over the inlet's
-  std::string message = {};  ///< of a run that ended early
+  double end = 0.0;                  ///< [s] reached
+  double largest = 0.0, last = 0.0;  ///< of what is measured
+  std::string message = {};          ///< of a run that ended early
 };
 
-/// Reads a case and runs it to its end, on the calling thread and its team; grids are made one at a time. A
-/// `lattice_velocity` may exceed what the case reader allows. A mesh that must be generated goes to `folder`.
+/// Reads a case and runs it to its end, on the calling thread and its team; grids are made one at a time. `adjust` may
+/// set what the case reader does not allow. A mesh that must be generated goes to `folder`.
 Fate follow(const std::filesystem::path& file, const std::vector<std::string>& overrides,
-            std::optional<double> lattice_velocity, Bound bound, const std::filesystem::path& folder);
+            const std::function<void(app::Case&)>& adjust, Bound bound, const std::filesystem::path& folder);
 
 }  // namespace drogue::bench

@@ -51,15 +51,15 @@ Row cells_of(const std::string& line) {
 
 std::string number(std::optional<double> value) { return value ? fmt::format("{:.6g}", *value) : ""; }
 
-ResultTable::ResultTable(std::filesystem::path file, Row columns)
+ResultTable::ResultTable(std::filesystem::path file, Row columns, Start start)
     : file_(std::move(file)), columns_(std::move(columns)) {
   std::ifstream stream(file_);
   std::string line;
-  const bool exists = static_cast<bool>(std::getline(stream, line));
+  const bool exists = start == go_on && std::getline(stream, line);
   if (exists && cells_of(line) != columns_) {
     throw InputError(fmt::format("{} has other columns, so it is of another version; move it away", file_.string()));
   }
-  while (std::getline(stream, line)) {
+  while (exists && std::getline(stream, line)) {
     Row row = cells_of(line);
     // the last line of a process that was killed may be half a line
     if (row.size() == columns_.size()) rows_.push_back(std::move(row));

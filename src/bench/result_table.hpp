@@ -17,8 +17,9 @@ std::string number(std::optional<double> value);
 
 class ResultTable {
  public:
-  /// Rows that the file has are kept. Throws InputError if it has other columns, or cannot be written.
-  ResultTable(std::filesystem::path file, Row columns);
+  enum Start { go_on, anew };
+  /// Keeps the rows that the file has, or starts anew. Throws InputError if it has other columns, or cannot be written.
+  ResultTable(std::filesystem::path file, Row columns, Start start = go_on);
 
   /// Whether there is a row that begins with these cells.
   bool has(const Row& key) const;
