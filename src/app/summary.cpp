@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <fstream>
 #include <nlohmann/json.hpp>
 #include <numeric>
 
@@ -75,6 +76,19 @@ void write_summary(const Summary& summary, const std::filesystem::path& file) {
   io::PendingStream stream(file);
   stream.write(to_json(summary));
   stream.commit();
+}
+
+RunNumbers read_numbers(const std::filesystem::path& file) {
+  std::ifstream stream(file);
+  const Json json = Json::parse(stream);
+  RunNumbers numbers;
+  for (const auto& [name, value] : json.at("results").items()) {
+    if (value.is_number()) numbers.results[name] = value;
+  }
+  numbers.cell_updates = json.at("cell_updates");
+  const double mlups = json.at("mlups");
+  numbers.step_seconds = mlups > 0.0 ? 1e-6 * numbers.cell_updates / mlups : 0.0;
+  return numbers;
 }
 
 void print_summary(const Summary& s, Log& log) {

@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <map>
 #include <string>
 #include <utility>
 #include <vector>
@@ -34,6 +35,13 @@ struct Summary {
 std::string to_json(const Summary& summary);
 /// Throws std::runtime_error naming the file.
 void write_summary(const Summary& summary, const std::filesystem::path& file);
+/// What the summary of a run says of its cost and its results; those without a value are left out.
+struct RunNumbers {
+  std::map<std::string, double> results;
+  double step_seconds = 0.0, cell_updates = 0.0;
+};
+/// Throws std::runtime_error if the file is no summary.
+RunNumbers read_numbers(const std::filesystem::path& file);
 void print_summary(const Summary& summary, Log& log);
 
 }  // namespace drogue::app

@@ -11,6 +11,7 @@
 #include <optional>
 #include <utility>
 
+#include "bench/accuracy.hpp"
 #include "bench/kernel.hpp"
 #include "bench/machine.hpp"
 #include "bench/options.hpp"
@@ -31,6 +32,7 @@ struct Family {
 };
 
 const std::vector<Family> families{{"kernel", "Fluid kernel", measure_kernel},
+                                   {"accuracy", "Run time against error", measure_accuracy},
                                    {"stability", "Stability", measure_stability}};
 
 const Family& family_of(const std::string& name) {

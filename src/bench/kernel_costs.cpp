@@ -89,7 +89,7 @@ void measure_costs(bool quick, const Patience& patience, ResultTable& table) {
 
 io::Plot plot_of_levels(const ResultTable& costs) {
   io::Plot plot{
-      "nested cubes", {"levels", io::Scale::linear, 1.0}, {"rate over the uniform rate", io::Scale::linear, 0.0, 1.1}};
+      "nested cubes", {"levels", io::Scale::whole, 1.0}, {"rate over the uniform rate", io::Scale::linear, 0.0, 1.1}};
   for (const int threads : thread_counts()) {
     io::Curve curve{
         fmt::format("{} thread{}", threads, threads > 1 ? "s" : ""), {1.0}, {1.0}, io::Style::line_and_points};

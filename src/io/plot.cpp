@@ -71,7 +71,8 @@ std::string axis(char name, const Axis& axis, std::array<double, 2> span) {
   const auto limit = [](std::optional<double> value) { return value ? fmt::format("{:.9g}", *value) : "*"; };
   std::string text = fmt::format("set {0}label {1}\nset {0}range [{2}:{3}]\n", name, quoted(axis.label),
                                  limit(axis.lower), limit(axis.upper));
-  if (axis.scale == Scale::linear) {
+  text += fmt::format("set {}tics {}\n", name, axis.scale == Scale::whole ? "1" : "autofreq");
+  if (axis.scale != Scale::logarithmic) {
     text += fmt::format("unset logscale {0}\nset format {0} '%g'\n", name);
   } else {
     const bool decades = span[1] >= 1e3 * span[0];
@@ -115,6 +116,9 @@ std::string with_style(const Curve& curve, int place) {
       return "points " + line + " " + marks;
     case Style::line_and_points:
       return "linespoints " + line + " " + marks;
+    case Style::ring:
+      return fmt::format("points linecolor rgb '{}' linewidth 2 pointtype 6 pointsize 3",
+                         palette[colour % palette.size()]);
   }
   return {};
 }

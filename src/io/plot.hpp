@@ -11,7 +11,7 @@
 
 namespace drogue::io {
 
-enum class Scale { linear, logarithmic };
+enum class Scale { linear, logarithmic, whole };  ///< whole: linear, with a tick at every whole number
 
 struct Axis {
   std::string label;  ///< with the unit: "time [s]"
@@ -19,7 +19,7 @@ struct Axis {
   std::optional<double> lower = {}, upper = {};  ///< from the data if not given
 };
 
-enum class Style { line, dashed, points, line_and_points };
+enum class Style { line, dashed, points, line_and_points, ring };  ///< ring: around a point that others draw
 
 struct Curve {
   std::string label;                   ///< without one it is not in the legend
