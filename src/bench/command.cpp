@@ -41,7 +41,7 @@ const Family& family_of(const std::string& name) {
   std::vector<std::string> names;
   for (const Family& f : families) names.push_back(f.name);
   throw InputError(
-      fmt::format("{} is no benchmark{}; there are {}", name, did_you_mean(name, names), fmt::join(names, ", ")));
+      fmt::format("{} is no benchmark (there are {}){}", name, fmt::join(names, ", "), did_you_mean(name, names)));
 }
 
 void write_text(const fs::path& file, const std::string& text) {

@@ -193,6 +193,11 @@ io::CategoryMap::Cell cell_of(const Map& map, const ResultTable& table, const Jo
                   : fmt::format("t = {:.2f}", table.value(*row, "end").value_or(0.0))};
 }
 
+/// "1e5" as a power of ten.
+std::string pretty(const std::string& label) {
+  return label.starts_with("1e") ? fmt::format("10^{{{}}}", label.substr(2)) : label;
+}
+
 io::MapFigure figure_of(const Map& map, const ResultTable& table) {
   const char* note = map.bound == Bound::energy
                          ? "kinetic energy at the end over that at the start, or the time when the run ended"
@@ -201,9 +206,9 @@ io::MapFigure figure_of(const Map& map, const ResultTable& table) {
   for (const auto& [name, category] : categories) figure.categories.push_back(category);
   for (const Value& panel : map.panels.values) {
     io::CategoryMap picture{map.panels.values.size() > 1 ? panel.label : "", map.columns.label, map.rows.label, {}, {}};
-    for (const Value& column : map.columns.values) picture.columns.push_back(column.label);
+    for (const Value& column : map.columns.values) picture.columns.push_back(pretty(column.label));
     for (const Value& row : map.rows.values) {
-      picture.rows.push_back(row.label);
+      picture.rows.push_back(pretty(row.label));
       auto& cells = picture.cells.emplace_back();
       for (const Value& column : map.columns.values) cells.push_back(cell_of(map, table, {&panel, &row, &column}));
     }
