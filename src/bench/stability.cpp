@@ -232,13 +232,33 @@ std::vector<Row> counts_of(const Map& map, const ResultTable& table) {
   return rows;
 }
 
+/// How the defaults fared, in a sentence.
+std::string verdict_of(const Map& map, const ResultTable& table) {
+  const io::CategoryMap::Frame& f = map.defaults;
+  int survived = 0;
+  for (int row = f.row; row < f.row + f.rows; ++row) {
+    for (int column = f.column; column < f.column + f.columns; ++column) {
+      Row key{map.default_panel, map.rows.values[row].label, map.columns.values[column].label, outcome::survived};
+      if (table.has(key)) ++survived;
+    }
+  }
+  return fmt::format("- {}: {} of {} runs with the defaults survive.\n", map.title, survived, f.rows * f.columns);
+}
+
 }  // namespace
+
+std::vector<std::string> stability_parts() {
+  std::vector<std::string> names;
+  for (const Map& map : all_maps(false)) names.push_back(map.name);
+  return names;
+}
 
 Report measure_stability(const Options& options) {
   Report report;
   Row header{"flow", "operator"};
   for (const auto& [name, category] : categories) header.push_back(category.label);
   std::vector<Row> counts;
+  std::string verdicts;
   for (const Map& map : all_maps(options.quick)) {
     if (!options.wants(map.name)) continue;
     ResultTable table(
@@ -247,8 +267,9 @@ Report measure_stability(const Options& options) {
     run_missing(map, table, options);
     report.draw(figure_of(map, table), options.folder / fmt::format("stability_{}.png", map.name));
     for (const Row& row : counts_of(map, table)) counts.push_back(row);
+    verdicts += verdict_of(map, table);
   }
-  report.text = markdown(header, counts);
+  report.text = markdown(header, counts) + '\n' + verdicts;
   return report;
 }
 

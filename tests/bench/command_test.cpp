@@ -85,6 +85,7 @@ TEST(Bench, only_missing_runs_of_stability_are_made) {
 TEST(Bench, names_the_nearest_family) {
   EXPECT_EQ(error_of({"kernle"}),
             "kernle is no benchmark (there are kernel, accuracy, stability); did you mean kernel?");
+  EXPECT_NE(error_of({"stability", "--only", "sudden_event"}).find("did you mean sudden_events?"), std::string::npos);
   EXPECT_NE(error_of({"kernel", "--fast"}).find("--fast"), std::string::npos);
 }
 
