@@ -208,6 +208,12 @@ std::string text_of(const Study& study, const std::vector<Point>& points) {
 
 }  // namespace
 
+std::vector<std::string> accuracy_parts() {
+  std::vector<std::string> names;
+  for (const Study& study : all_studies(false)) names.push_back(study.name);
+  return names;
+}
+
 Report measure_accuracy(const Options& options) {
   Report report;
   io::Figure figure{"Error against run time", {}, 2};

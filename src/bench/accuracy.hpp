@@ -4,6 +4,9 @@
 // cheapest that keeps a given error.
 #pragma once
 
+#include <string>
+#include <vector>
+
 #include "bench/options.hpp"
 #include "bench/report.hpp"
 
@@ -12,5 +15,8 @@ namespace drogue::bench {
 /// Writes accuracy_NAME.csv for each flow and accuracy.png. Rows that a table has are not run again; each run leaves
 /// its folder below runs/. Throws InputError.
 Report measure_accuracy(const Options& options);
+
+/// Names that Options::only may hold for it.
+std::vector<std::string> accuracy_parts();
 
 }  // namespace drogue::bench

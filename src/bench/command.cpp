@@ -29,11 +29,12 @@ namespace fs = std::filesystem;
 struct Family {
   std::string name, title;
   std::function<Report(const Options&)> measure;
+  std::vector<std::string> parts = {};  ///< that --only may name
 };
 
 const std::vector<Family> families{{"kernel", "Fluid kernel", measure_kernel},
-                                   {"accuracy", "Run time against error", measure_accuracy},
-                                   {"stability", "Stability", measure_stability}};
+                                   {"accuracy", "Run time against error", measure_accuracy, accuracy_parts()},
+                                   {"stability", "Stability", measure_stability, stability_parts()}};
 
 const Family& family_of(const std::string& name) {
   const auto family = std::ranges::find(families, name, &Family::name);
@@ -41,7 +42,17 @@ const Family& family_of(const std::string& name) {
   std::vector<std::string> names;
   for (const Family& f : families) names.push_back(f.name);
   throw InputError(
-      fmt::format("{} is no benchmark{}; there are {}", name, did_you_mean(name, names), fmt::join(names, ", ")));
+      fmt::format("{} is no benchmark (there are {}){}", name, fmt::join(names, ", "), did_you_mean(name, names)));
+}
+
+void refuse_unknown_parts(const std::vector<Family>& wanted, const std::vector<std::string>& only) {
+  std::vector<std::string> parts;
+  for (const Family& family : wanted) parts.insert(parts.end(), family.parts.begin(), family.parts.end());
+  for (const std::string& name : only) {
+    if (std::ranges::find(parts, name) != parts.end()) continue;
+    throw InputError(fmt::format("--only {} names no part (there are {}){}", name, fmt::join(parts, ", "),
+                                 did_you_mean(name, parts)));
+  }
 }
 
 void write_text(const fs::path& file, const std::string& text) {
@@ -74,8 +85,11 @@ int run_command(std::vector<std::string> arguments) {
 
   std::vector<Family> wanted = names.empty() ? families : std::vector<Family>{};
   for (const std::string& name : names) wanted.push_back(family_of(name));
+  refuse_unknown_parts(wanted, options.only);
   if (threads) omp_set_num_threads(*threads);
-  fs::create_directories(options.folder);
+  std::error_code error;
+  fs::create_directories(options.folder, error);
+  if (error) throw InputError(fmt::format("{} cannot be made: {}", options.folder.string(), error.message()));
   bool drawn = true;
   for (const Family& family : wanted) {
     const Report report = family.measure(options);

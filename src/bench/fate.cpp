@@ -49,6 +49,14 @@ std::unique_ptr<app::Simulation> make_simulation(const app::Case& c, const std::
   return simulation;
 }
 
+bool is_finite(const app::Simulation& simulation) {
+  const fluid::FluidSolver& fluid = simulation.fluid();
+  return std::isfinite(fluid.mass_and_momentum()[0]) && std::ranges::all_of(simulation.bodies(), [&](const auto& body) {
+           const app::BodyRow row = body->measure(fluid);
+           return row.force.allFinite() && row.centre.allFinite();
+         });
+}
+
 /// Largest speed [m/s] that a face of the case lets in, ever.
 double inlet_speed(const app::Case& c) {
   double largest = c.fluid.reference_velocity;
@@ -78,7 +86,7 @@ void step_to_end(app::Simulation& simulation, const app::Case& c, Bound bound, F
     ++sample;
     fate.last = (energy ? kinetic_energy(fluid) : fluid.statistics().max_speed) / unit;
     fate.largest = std::max(fate.largest, fate.last);
-    is_number = is_number && std::isfinite(fate.last) && std::isfinite(fluid.mass_and_momentum()[0]);
+    is_number = is_number && std::isfinite(fate.last) && is_finite(simulation);
   }
   if (fate.largest > (energy ? largest_energy : largest_speed)) fate.outcome = outcome::unbounded;
   if (!is_number) fate.outcome = outcome::silent;

@@ -94,13 +94,50 @@ void measure_variant(const Variant& v, const Floors& floors, const Patience& pat
   }
 }
 
+/// Rows of one variant, by threads.
+std::vector<Row> rows_of(const ResultTable& table, const std::string& op, const std::string& storage,
+                         const std::string& where) {
+  std::vector<Row> rows;
+  for (const Row& row : table.rows()) {
+    if (table.text(row, "operator") != op || table.text(row, "storage") != storage) continue;
+    if (table.text(row, "where") == where) rows.push_back(row);
+  }
+  return rows;
+}
+
+/// A line for each operator and storage: rates by threads, and what the largest number of them makes of the floors.
+std::string summary_of(const ResultTable& table) {
+  Row header{"operator", "storage"};
+  for (const char* where : {"memory", "cache"}) {
+    for (const int threads : thread_counts()) header.push_back(fmt::format("{}, {}", where, threads));
+  }
+  header.insert(header.end(), {"bytes", "of bandwidth", "flops", "of arithmetic, in cache"});
+  std::vector<Row> lines;
+  for (const auto& [storage, kind] : storages) {
+    for (const Operator& op : operators()) {
+      Row line{op.name, storage};
+      const auto memory = rows_of(table, op.name, storage, "memory"), cache = rows_of(table, op.name, storage, "cache");
+      if (memory.empty()) continue;
+      for (const auto& rows : {memory, cache}) {
+        for (const Row& row : rows) line.push_back(fmt::format("{:.0f}", *table.value(row, "mlups")));
+      }
+      const auto percent = [&](const Row& row, const char* column) {
+        return fmt::format("{:.0f} %", 100.0 * *table.value(row, column));
+      };
+      line.insert(line.end(),
+                  {table.text(memory.back(), "bytes_per_update"), percent(memory.back(), "share_of_bandwidth"),
+                   table.text(memory.back(), "flops_per_update"), percent(cache.back(), "share_of_arithmetic")});
+      lines.push_back(line);
+    }
+  }
+  return markdown(header, lines);
+}
+
 /// A curve over threads of the rows that the given cells name.
 io::Curve curve_of(const ResultTable& table, const std::string& op, const std::string& storage,
                    const std::string& where, const std::string& label) {
   io::Curve curve{label, {}, {}, io::Style::line_and_points};
-  for (const Row& row : table.rows()) {
-    if (table.text(row, "operator") != op || table.text(row, "storage") != storage) continue;
-    if (table.text(row, "where") != where) continue;
+  for (const Row& row : rows_of(table, op, storage, where)) {
     curve.x.push_back(*table.value(row, "threads"));
     curve.y.push_back(*table.value(row, "mlups"));
   }
@@ -173,7 +210,8 @@ Report measure_kernel(const Options& options) {
     report.text += fmt::format("{} thread{}: {:.1f} GB/s copied, {:.0f} Gflop/s. ", threads, threads > 1 ? "s" : "",
                                floor.copy, floor.arithmetic);
   }
-  report.text += "\n\n" + markdown(table.columns(), table.rows()) + "\n" + markdown(costs.columns(), costs.rows());
+  report.text += "\n\nMillion updates/s, best of the repetitions, by threads:\n\n" + summary_of(table) + "\n" +
+                 markdown(costs.columns(), costs.rows());
   return report;
 }
 

@@ -193,6 +193,11 @@ io::CategoryMap::Cell cell_of(const Map& map, const ResultTable& table, const Jo
                   : fmt::format("t = {:.2f}", table.value(*row, "end").value_or(0.0))};
 }
 
+/// "1e5" as a power of ten.
+std::string pretty(const std::string& label) {
+  return label.starts_with("1e") ? fmt::format("10^{{{}}}", label.substr(2)) : label;
+}
+
 io::MapFigure figure_of(const Map& map, const ResultTable& table) {
   const char* note = map.bound == Bound::energy
                          ? "kinetic energy at the end over that at the start, or the time when the run ended"
@@ -201,9 +206,9 @@ io::MapFigure figure_of(const Map& map, const ResultTable& table) {
   for (const auto& [name, category] : categories) figure.categories.push_back(category);
   for (const Value& panel : map.panels.values) {
     io::CategoryMap picture{map.panels.values.size() > 1 ? panel.label : "", map.columns.label, map.rows.label, {}, {}};
-    for (const Value& column : map.columns.values) picture.columns.push_back(column.label);
+    for (const Value& column : map.columns.values) picture.columns.push_back(pretty(column.label));
     for (const Value& row : map.rows.values) {
-      picture.rows.push_back(row.label);
+      picture.rows.push_back(pretty(row.label));
       auto& cells = picture.cells.emplace_back();
       for (const Value& column : map.columns.values) cells.push_back(cell_of(map, table, {&panel, &row, &column}));
     }
@@ -227,13 +232,33 @@ std::vector<Row> counts_of(const Map& map, const ResultTable& table) {
   return rows;
 }
 
+/// How the defaults fared, in a sentence.
+std::string verdict_of(const Map& map, const ResultTable& table) {
+  const io::CategoryMap::Frame& f = map.defaults;
+  int survived = 0;
+  for (int row = f.row; row < f.row + f.rows; ++row) {
+    for (int column = f.column; column < f.column + f.columns; ++column) {
+      Row key{map.default_panel, map.rows.values[row].label, map.columns.values[column].label, outcome::survived};
+      if (table.has(key)) ++survived;
+    }
+  }
+  return fmt::format("- {}: {} of {} runs with the defaults survive.\n", map.title, survived, f.rows * f.columns);
+}
+
 }  // namespace
+
+std::vector<std::string> stability_parts() {
+  std::vector<std::string> names;
+  for (const Map& map : all_maps(false)) names.push_back(map.name);
+  return names;
+}
 
 Report measure_stability(const Options& options) {
   Report report;
   Row header{"flow", "operator"};
   for (const auto& [name, category] : categories) header.push_back(category.label);
   std::vector<Row> counts;
+  std::string verdicts;
   for (const Map& map : all_maps(options.quick)) {
     if (!options.wants(map.name)) continue;
     ResultTable table(
@@ -242,8 +267,9 @@ Report measure_stability(const Options& options) {
     run_missing(map, table, options);
     report.draw(figure_of(map, table), options.folder / fmt::format("stability_{}.png", map.name));
     for (const Row& row : counts_of(map, table)) counts.push_back(row);
+    verdicts += verdict_of(map, table);
   }
-  report.text = markdown(header, counts);
+  report.text = markdown(header, counts) + '\n' + verdicts;
   return report;
 }
 

@@ -4,6 +4,9 @@
 // one thread, and as many are made at once as there are threads.
 #pragma once
 
+#include <string>
+#include <vector>
+
 #include "bench/options.hpp"
 #include "bench/report.hpp"
 
@@ -12,5 +15,8 @@ namespace drogue::bench {
 /// Writes a table and a map of each flow, stability_NAME.csv and .png; reports how many runs had which outcome. Rows
 /// that a table has are not run again. Throws InputError.
 Report measure_stability(const Options& options);
+
+/// Names that Options::only may hold for it.
+std::vector<std::string> stability_parts();
 
 }  // namespace drogue::bench

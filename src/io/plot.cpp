@@ -63,7 +63,7 @@ std::string multiplot(const Layout& layout, const std::string& title, const std:
 std::string map_margins(const Layout& layout) {
   const double w = layout.width(), h = layout.height();
   return fmt::format("margins screen {:.4f},{:.4f},{:.4f},{:.4f} spacing screen {:.4f},{:.4f}", 110 / w, 1 - 30 / w,
-                     (layout.footer + 70) / h, 1 - (heading + 50) / h, 110 / w, 110 / h);
+                     (layout.footer + 70) / h, 1 - (heading + 50) / h, 110 / w, 130 / h);
 }
 
 /// Ticks of a logarithmic axis are powers of ten where it spans several of them.
@@ -253,7 +253,10 @@ std::string gnuplot_script(const MapFigure& figure, const fs::path& png) {
                   65 * pixel);
   text += multiplot(layout, figure.title, map_margins(layout));
   int number = 0;
-  for (const CategoryMap& map : figure.maps) text += panel(map, figure, number++);
+  for (const CategoryMap& map : figure.maps) {
+    text += panel(map, figure, number++);
+    text += "unset label 1\n";  // once is enough
+  }
   return text + "unset multiplot\n";
 }
 
