@@ -147,6 +147,17 @@ struct RowLayout {
     for (int m = 0; m < moments; ++m) column.m[m] = lbm::load(value[m]);
     return column;
   }
+  /// The 16 cells from `cell` along x, y or z, its component there being 0.
+  static Row<Real> load_line(const std::byte* rows, const Index3& cell, int along) {
+    const auto [x, y, z] = cell;
+    if (along == 0) return load_row(rows + (z * lanes + y) * bytes);
+    return along == 1 ? load_column(rows, x, z * lanes, 1) : load_column(rows, x, y, lanes);
+  }
+  static void store_line(std::byte* rows, const Index3& cell, int along, const Row<Real>& line) {
+    const auto [x, y, z] = cell;
+    if (along == 0) return store_row(rows + (z * lanes + y) * bytes, line);
+    along == 1 ? store_column(rows, x, z * lanes, 1, line) : store_column(rows, x, y, lanes, line);
+  }
   static void store_column(std::byte* rows, int x, int first_row, int row_stride, const Row<Real>& column) {
     for (int i = 0; i < lanes; ++i)
       for (int m = 0; m < moments; ++m) put(rows + (first_row + i * row_stride) * bytes, m, x, column.m[m][i]);
@@ -170,6 +181,15 @@ class MomentField {
   const std::byte* row(int id, int y, int z) const { return block(id) + (z * amr::block_size + y) * Layout::bytes; }
   std::byte* columns(int id) { return columns_.data() + id * column_bytes; }
   const std::byte* columns(int id) const { return columns_.data() + id * column_bytes; }
+
+  /// Adds to density or velocity of one cell of a leaf.
+  void add(int id, const Index3& cell, int m, typename S::Real value) {
+    const auto [x, y, z] = cell;
+    auto& sum = Layout::macro(row(id, y, z), m)[x];
+    sum += value;
+    if (x == 0 || x == lanes - 1)
+      Layout::macro(columns(id) + ((x == 0 ? 0 : amr::block_size) + z) * Layout::bytes, m)[y] = sum;
+  }
 
   void refresh_columns(int id) {
     for (int side = 0; side < 2; ++side)

@@ -51,7 +51,10 @@ BasicSolver<S>::BasicSolver(amr::Forest forest, fluid::Specification specificati
     l.relaxation = {relaxation_time(specification_.viscosity * l.dt / (dx * dx)), specification_.hrr_sigma,
                     eddy_factor(specification_)};
     if (level > 0) l.from_coarser = plan_interpolation(forest_, level);
-    if (level < forest_.finest()) l.to_parents = plan_restriction(forest_, level);
+    if (level < forest_.finest()) {
+      l.to_parents = plan_restriction(forest_, level);
+      reflux_.emplace_back(forest_, specification_, level);
+    }
     if (forced_) l.lead = half_kick(level, 0.0);
     build_sponge(level);
   }
@@ -68,7 +71,9 @@ template <class S>
 void BasicSolver<S>::advance(int level, fluid::FineStepHook* hook) {
   Level& l = levels_[level];
   fill_boundary_(level, l.time, field_[l.now]);
+  if (level > 0) reflux_[level - 1].count_fine_step(field_[l.now], l.relaxation);
   stream_and_collide(level);
+  fill_boundary_.balance(level, 1.0 - 1.0 / l.relaxation.tau, field_[l.now], field_[1 - l.now]);
   if (forced_) accelerate(level);
   apply_sponge(level);
   if (level == forest_.finest()) {
@@ -79,6 +84,7 @@ void BasicSolver<S>::advance(int level, fluid::FineStepHook* hook) {
       advance(level + 1, hook);
       restrict_to_parents(level, 1 - l.now);
     }
+    reflux_[level].settle(field_[l.now], l.relaxation, field_[1 - l.now]);
   }
   l.now = 1 - l.now;
   l.time += l.dt;
@@ -310,6 +316,7 @@ void BasicSolver<S>::transfer_state(Archive& archive) {
     for (int id = leaves.begin; id < leaves.end; ++id) field.refresh_columns(id);
     if (forced_) l.lead = half_kick(level, l.time);
   }
+  archive.transfer("boundaries", fill_boundary_);
   archive.transfer("cell_updates", statistics_.cell_updates);
   archive.transfer("max_mach", statistics_.max_mach);
   archive.transfer("max_speed", statistics_.max_speed);
