@@ -24,7 +24,8 @@ inline constexpr const char* silent = "silent";        ///< arrived with values 
 /// What a flow keeps to if it is computed well, whatever the Reynolds number.
 enum class Bound {
   energy,  ///< a closed box: kinetic energy never exceeds that at the start, by more than 1 %
-  speed,   ///< an open one: no speed beyond three times that of the inlet, after one tenth of the time
+  speed,   ///< an open one: in the second half of the time no speed exceeds three times the inlet's (or the largest
+           ///< change of that)
 };
 
 /// What is measured is the kinetic energy over that at the start, or the largest speed over that of the inlet.

@@ -88,8 +88,15 @@ Side inlet_events() {
 
 Map sheet_map(const std::string& name, const std::string& title, const Side& rows, const Side& mass, int row,
               int column, int row_count) {
-  return {name, title,     "elastic_plate.toml",       Bound::speed, {"scheme", "", {{"default", {}}}}, rows,
-          mass, "default", {row, column, row_count, 1}};
+  return {name,
+          title,
+          name + ".toml",
+          Bound::speed,
+          {"scheme", "", {{"default", {}}}},
+          rows,
+          mass,
+          "default",
+          {row, column, row_count, 1}};
 }
 
 std::vector<Map> all_maps(bool quick) {
