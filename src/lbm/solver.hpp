@@ -80,6 +80,7 @@ class BasicSolver : public fluid::FluidSolver {
   Units units_;
   std::vector<Level> levels_;
   std::array<MomentField<S>, 2> field_;
+  Resampler<S> resample_;
   BoundaryFill<S> fill_boundary_;
   fluid::ForceField force_;
   mutable FineVelocity<S> fine_velocity_;  // a cache
