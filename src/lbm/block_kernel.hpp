@@ -124,9 +124,10 @@ class BlockKernel {
     if (y == n - 1) prefetch_row(source[amr::neighbour_slot(0, 1, 0)] + z * n * Layout::bytes);
     if (z == 0) prefetch_row(source[amr::neighbour_slot(0, 0, -1)] + ((n - 1) * n + y) * Layout::bytes);
     if (z == n - 1) prefetch_row(source[amr::neighbour_slot(0, 0, 1)] + y * Layout::bytes);
-    if (y < 2) {
-      const std::byte* columns = blocks_.next->columns[amr::neighbour_slot(y ? 1 : -1, 0, 0)];
-      if (columns) prefetch_row(columns + ((y ? 0 : n) + z) * Layout::bytes);
+    if (y < 6) {  // columns: the x faces and the four x-y edges
+      const int dx = y % 2 ? 1 : -1, dy = y < 2 ? 0 : y < 4 ? -1 : 1;
+      const std::byte* columns = blocks_.next->columns[amr::neighbour_slot(dx, dy, 0)];
+      if (columns) prefetch_row(columns + ((dx > 0 ? 0 : n) + z) * Layout::bytes);
     }
   }
 
