@@ -10,6 +10,9 @@ namespace {
 
 constexpr int n = amr::block_size;
 
+/// At its x faces the columns of a block are up to date, its rows need not be; beyond the domain there are rows only.
+bool keeps_columns(const amr::Forest& forest, int block) { return forest.block(block).kind != amr::Kind::boundary; }
+
 /// The layer of cells of a block at one of its faces, by rows and lanes.
 template <class S>
 class Layer {
@@ -21,18 +24,19 @@ class Layer {
       : axis_(face / 2),
         depth_(face & 1 ? n - 1 : 0),
         rows_(field.block(block)),
-        columns_(axis_ == 0 && forest.block(block).kind == amr::Kind::leaf ? field.columns(block) : nullptr) {}
+        columns_(axis_ == 0 && keeps_columns(forest, block) ? field.column(block, depth_, 0) : nullptr) {}
 
   Vec<Real> row(int m, int r) const {
     if (axis_ == 1) return Layout::load(rows_ + (r * n + depth_) * Layout::bytes, m);
     if (axis_ == 2) return Layout::load(rows_ + (depth_ * n + r) * Layout::bytes, m);
-    if (columns_) return Layout::load(columns_ + ((depth_ ? n : 0) + r) * Layout::bytes, m);
+    if (columns_) return Layout::load(columns_ + r * Layout::bytes, m);
     alignas(128) Real value[lanes];
     for (int lane = 0; lane < lanes; ++lane) value[lane] = cell(m, r, lane);
     return load(value);
   }
 
   Real cell(int m, int r, int lane) const {
+    if (columns_) return Layout::get(columns_ + r * Layout::bytes, m, lane);
     const int x = axis_ == 0 ? depth_ : lane, y = axis_ == 0 ? lane : axis_ == 1 ? depth_ : r;
     return Layout::get(rows_ + ((axis_ == 2 ? depth_ : r) * n + y) * Layout::bytes, m, x);
   }
@@ -125,7 +129,12 @@ void Reflux<S>::add_sheet(const MomentField<S>& field, const InterfaceFace& face
 template <class S>
 auto Reflux<S>::entering(const MomentField<S>& field, const DiagonalTerm& term, int along, Real keep) const
     -> Vec<Real> {
-  const auto cells = RowLayout<S>::load_line(field.block(term.block), term.first, along);
+  using Layout = RowLayout<S>;
+  const auto [x, y, z] = term.first;
+  const bool in_column = along != 0 && (x == 0 || x == n - 1) && keeps_columns(forest_, term.block);
+  const Row<Real> cells = !in_column   ? Layout::load_line(field.block(term.block), term.first, along)
+                          : along == 1 ? Layout::load_row(field.column(term.block, x, z))
+                                       : Layout::load_column(field.column(term.block, x, 0), y, 0, 1);
   return static_cast<Real>(term.weight) * population_along(cells, keep, third_order_, term.direction);
 }
 

@@ -37,7 +37,9 @@ BasicSolver<S>::BasicSolver(amr::Forest forest, fluid::Specification specificati
     : forest_(std::move(forest)),
       specification_(std::move(specification)),
       units_(units_of(specification_)),
-      field_{MomentField<S>(forest_.size()), MomentField<S>(forest_.size())},
+      field_{MomentField<S>(forest_.size(), column_depths(forest_)),
+             MomentField<S>(forest_.size(), column_depths(forest_))},
+      resample_(forest_),
       fill_boundary_(forest_, specification_, units_),
       forced_(is_forced(specification_)),
       force_(forest_),
@@ -118,10 +120,13 @@ BlockNeighbourhood<S> BasicSolver<S>::neighbourhood(int block, int from) {
   for (int slot = 0; slot < 27; ++slot) {
     const int id = forest_.block(block).neighbour[slot];
     blocks.source[slot] = field_[from].block(id);
-    blocks.columns[slot] = forest_.block(id).kind == amr::Kind::leaf ? field_[from].columns(id) : nullptr;
+    blocks.columns[slot] = forest_.block(id).kind == amr::Kind::boundary ? nullptr : field_[from].columns(id);
   }
-  blocks.target = field_[1 - from].block(block);
-  blocks.target_columns = field_[1 - from].columns(block);
+  MomentField<S>& target = field_[1 - from];
+  blocks.target = target.block(block);
+  blocks.target_columns = target.columns(block);
+  blocks.depth = target.depth(block);
+  if (blocks.depth != ColumnDepth{1, 1}) blocks.target_inner = target.inner_columns(block);
   return blocks;
 }
 
@@ -156,7 +161,7 @@ void BasicSolver<S>::interpolate_rims(int level, bool midway) {
 #pragma omp parallel for schedule(dynamic, 4)
   for (int i = 0; i < targets; ++i)
     for (int j = fine.from_coarser.first[i]; j < fine.from_coarser.first[i + 1]; ++j)
-      resample(fine.from_coarser.job[j], forest_, source, to_fine, field_[fine.now]);
+      resample_(fine.from_coarser.job[j], source, to_fine, field_[fine.now]);
 }
 
 template <class S>
@@ -169,7 +174,7 @@ void BasicSolver<S>::restrict_to_parents(int level, int field) {
 #pragma omp parallel for schedule(dynamic, 1)
   for (int i = 0; i < targets; ++i)
     for (int j = coarse.to_parents.first[i]; j < coarse.to_parents.first[i + 1]; ++j)
-      resample(coarse.to_parents.job[j], forest_, source, to_coarse, field_[field]);
+      resample_(coarse.to_parents.job[j], source, to_coarse, field_[field]);
 }
 
 /// Pneq = -2 rho c_s^2 tau S dt: per step of each level, so it scales with tau dt. Levels meet at the time of the
@@ -320,6 +325,7 @@ void BasicSolver<S>::transfer_state(Archive& archive) {
     for (int id = leaves.begin; id < leaves.end; ++id) field.refresh_columns(id);
     if (forced_) l.lead = half_kick(level, l.time);
   }
+  for (int level = forest_.finest() - 1; level >= 0; --level) restrict_to_parents(level, levels_[level].now);
   archive.transfer("boundaries", fill_boundary_);
   archive.transfer("cell_updates", statistics_.cell_updates);
   archive.transfer("max_mach", statistics_.max_mach);

@@ -85,6 +85,7 @@ class BasicSolver : public fluid::FluidSolver {
   Units units_;
   std::vector<Level> levels_;
   std::array<MomentField<S>, 2> field_;
+  Resampler<S> resample_;
   BoundaryFill<S> fill_boundary_;
   bool forced_;  // by a body force
   std::vector<Reflux<S>> reflux_;  // by the coarser level of an interface
