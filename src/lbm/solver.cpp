@@ -172,10 +172,14 @@ void BasicSolver<S>::restrict_to_parents(int level, int field) {
       resample(coarse.to_parents.job[j], forest_, source, to_coarse, field_[field]);
 }
 
-/// Pneq = -2 rho c_s^2 tau S dt: per step of each level, so it scales with tau dt.
+/// Pneq = -2 rho c_s^2 tau S dt: per step of each level, so it scales with tau dt. Levels meet at the time of the
+/// finer.
 template <class S>
 Conversion BasicSolver<S>::conversion(int from, int to) const {
-  return {tau(to) * levels_[to].dt / (tau(from) * levels_[from].dt), levels_[to].lead - levels_[from].lead};
+  Conversion result{tau(to) * levels_[to].dt / (tau(from) * levels_[from].dt)};
+  const double time = levels_[std::max(from, to)].time;
+  if (forced_) result.velocity_shift = half_kick(to, time) - half_kick(from, time);
+  return result;
 }
 
 template <class S>
