@@ -11,13 +11,13 @@ runs=runs/validation_flows
 cells() { echo "--set grid.coarsest=$1 --set grid.finest=$1"; }
 # The Mach number shrinks with the cells, as the error of the scheme does: by its square.
 walls() { echo "$(cells 1/$1) --set fluid.lattice_velocity=0.8/$1 --set domain.upper=[$2,1,\"16/$1\"]"; }
-slice() { echo "--set domain.upper=[1,1,\"16/$1\"] --set fluid.lattice_velocity=0.64/$1"; }
+slice() { echo "--set domain.upper=[1,1,\"16/$1\"] --set fluid.lattice_velocity=1.6/$1"; }
 
 matrix() {
   local n u re side octant="--set domain.upper=[\"pi\",\"pi\",\"pi\"]"
   for side in x_min x_max y_min y_max z_min z_max; do octant+=" --set domain.$side.type=free_slip"; done
 
-  for n in 32 64 96; do echo "green-$n|taylor_green|$n cells|$(cells 1/$n) $(slice $n)"; done
+  for n in 32 64 128; do echo "green-$n|taylor_green|$n cells|$(cells 1/$n) $(slice $n)"; done
   for n in 32 64 96; do
     echo "green-refined-$n|taylor_green|$n cells, a quarter of the square refined|--set grid.coarsest=1/$n --set grid.finest=1/$((2 * n)) --set grid.region=[{box=[[0,0,0],[0.5,0.5,1]]}] $(slice $n)"
   done
