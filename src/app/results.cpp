@@ -31,11 +31,12 @@ Number peak_time(const Column& time, const Column& value, const Case& c) {
 }
 
 /// Top (x, y) of the parabola through the largest value and those beside it, for means since the row before, which
-/// belong to the middle of their row; nothing while the largest is the first or the last.
+/// belong to the middle of their row; nothing unless rows on both sides are lower.
 std::optional<std::array<double, 2>> peak_of_means(const Column& time, const Column& value, const Case& c) {
   const auto row = peak_row(time, value, c);
   if (!row || *row == 0 || *row + 1 == time.size()) return std::nullopt;
   const std::size_t i = *row;
+  if (value[i - 1] > value[i]) return std::nullopt;  // before peaks count
   const auto middle = [&](std::size_t k) { return 0.5 * (time[k] + (k > 0 ? time[k - 1] : 0.0)); };
   const double before = middle(i - 1) - middle(i), after = middle(i + 1) - middle(i);
   const double slope_before = (value[i - 1] - value[i]) / before, slope_after = (value[i + 1] - value[i]) / after;

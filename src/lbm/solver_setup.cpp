@@ -97,7 +97,7 @@ void BasicSolver<S>::build_sponge(int level) {
       }
       if (s.damping == 0) continue;
       for (int a = 0; a < 3; ++a)
-        s.rest[ux + a] = static_cast<Real>(specification_.initial_velocity[a](x, 0.0) / units_.velocity);
+        s.rest[ux + a] = static_cast<Real>(specification_.initial_velocity[a](x, 0.0) / units_.velocity + l.lead[a]);
       sponge.cells.push_back(s);
     }
     if (!sponge.cells.empty()) l.sponge.push_back(std::move(sponge));

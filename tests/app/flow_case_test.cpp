@@ -8,7 +8,9 @@
 
 #include "app/case_reader.hpp"
 #include "app/history.hpp"
+#include "app/plot.hpp"
 #include "io/csv.hpp"
+#include "io/plot.hpp"
 #include "run_fixture.hpp"
 
 namespace drogue::app {
@@ -135,6 +137,19 @@ TEST_F(FlowCase, a_continued_run_goes_on_with_its_measurements) {
   EXPECT_EQ(continued[2], rows[2]);
   EXPECT_EQ(continued.back(), rows.back());
   EXPECT_EQ(summary()["results"], results);
+}
+
+TEST_F(FlowCase, is_drawn_against_its_references) {
+  EXPECT_THROW(plot_run(options_.folder, {}), InputError) << "there is no run";
+  run_case(options_);
+  const auto picture = options_.folder / "plot.png";
+  if (plot_run(options_.folder, {}) == picture.string() + "\n") {
+    EXPECT_GT(std::filesystem::file_size(picture), 5000u);
+  } else {
+    GTEST_SKIP() << io::no_gnuplot;
+  }
+  std::filesystem::remove(options_.folder / "profile_u.csv");
+  EXPECT_THROW(plot_run(options_.folder, {}), InputError) << "a part is missing";
 }
 
 TEST_F(FlowCase, only_what_is_asked_for_is_measured) {

@@ -127,6 +127,25 @@ TEST(Results, a_case_without_bodies_has_those_of_the_flow) {
   EXPECT_EQ(std::ranges::count(result_names(c), "cd_peak"), 0);
 }
 
+TEST(Results, the_peak_of_the_dissipation_is_the_top_of_a_parabola_in_units_of_the_flow) {
+  Case c{};
+  c.measure.energy = true;
+  c.fluid.reference_velocity = 2.0;
+  c.reference_length = 3.0;
+  Trace trace;
+  for (int i = 1; i <= 40; ++i) {
+    const double dt = 0.1, middle = (i - 0.5) * dt;
+    trace.time.push_back(i * dt);
+    trace.column["mass_drift"].push_back(0.0);
+    trace.column["dissipation"].push_back(5.0 - (middle - 2.03) * (middle - 2.03));
+  }
+  const auto results = summarise(trace, c);
+  EXPECT_NEAR(*value_of(results, "dissipation_peak"), 5.0 * 3.0 / 8.0, 1e-12);
+  EXPECT_NEAR(*value_of(results, "dissipation_peak_time"), 2.03 * 2.0 / 3.0, 1e-12);
+  c.results.peak_from = 2.6;
+  EXPECT_FALSE(value_of(summarise(trace, c), "dissipation_peak")) << "it only falls after that";
+}
+
 TEST(Results, references_agree_within_their_relative_bound) {
   const std::vector<Result> results{{"cd_stable", "", 1.29}, {"cd_peak", "", std::nullopt}};
   const std::vector<Reference> references{
