@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "lbm/boundary.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -64,7 +65,10 @@ template <class S>
 void BoundaryFill<S>::add(int level, int id) {
   const std::vector<int> axes = axes_beyond(forest_, id);
   const auto face = [&](int axis) -> const fluid::Face& { return specification_.face[face_beyond(forest_, id, axis)]; };
-  const auto no_slip = [&](int axis) { return face(axis).type == fluid::Boundary::no_slip; };
+  const auto is = [&](int axis, fluid::Boundary type) { return face(axis).type == type; };
+  const auto wall = [&](int axis) {
+    return is(axis, fluid::Boundary::no_slip) || is(axis, fluid::Boundary::free_slip);
+  };
   Item item{id, amr::none, axes.back(), 0, -1, -1, false};
   for (const int a : axes)
     if (!radiates(face(a))) item.axis = a;
@@ -83,7 +87,8 @@ void BoundaryFill<S>::add(int level, int id) {
     memories_.emplace_back();
   }
   items_[level][axes.size() - 1].push_back(item);
-  if (axes.size() == 2 && no_slip(axes[0]) && no_slip(axes[1])) {
+  const bool sticks = std::ranges::any_of(axes, [&](int a) { return is(a, fluid::Boundary::no_slip); });
+  if (axes.size() == 2 && wall(axes[0]) && wall(axes[1]) && sticks) {
     WallEdge edge{id, {}};
     for (int i = 0; i < 2; ++i) edge.outward[i][axes[i]] = forest_.block(id).index[axes[i]] < 0 ? -1 : 1;
     Index3 inwards;

@@ -11,12 +11,13 @@
 //
 // Inlet: pressure radiates; of the two waves, in velocity units a = p/(rho c), the one that comes in is a - u_n. It
 // carries the given velocity, and what has come out slowly comes back,
-//   a - u_n = m - 2 u_given,   dm/dt = 2 K (u_n - u_given),
+//   a - u_n = m - 2 u_given,   dm/dt = 2 K_in (u_n - u_given),
 // so that u_n = u_given in the mean, whatever the pressure.
 //
-// Both leave waves slower than K alone. Plane waves of frequency omega are reflected by K / sqrt(4 omega^2 + K^2).
-// K = 1/4 c / L, with L the length of the domain along n, is the usual choice (Rudy & Strikwerda, J. Comput. Phys. 36
-// (1980) 55).
+// Waves slower than K come back: K / sqrt(4 omega^2 + K^2) of a plane wave of frequency omega at an outlet, K_in /
+// sqrt(omega^2 + K_in^2) at an inlet. K = c / (4 L), with L the length of the domain along n, is the usual choice (Rudy
+// & Strikwerda, J. Comput. Phys. 36 (1980) 55). An inlet and an outlet that face each other settle as exp(s t) with (s
+// + K_in)(2 s + K) + K_in K = 0: without oscillation if K_in > 2.9 K.
 #pragma once
 
 #include <array>
@@ -26,6 +27,8 @@
 namespace drogue::lbm {
 
 inline constexpr double sound_speed = 0.57735026918962576;  ///< c in cells per step
+
+inline constexpr double inlet_to_outlet = 3.0;  ///< K_in / K
 
 /// K / 2 per step, for a domain that is so many cells long.
 constexpr double half_relaxation(double cells) { return 0.5 * 0.25 * sound_speed / cells; }
@@ -76,7 +79,7 @@ struct OpenFace {
     r.m[drho] = radiate(inside.m[drho], speed(inside), Real(0), Real(0), memory[0]);
     const Vec<Real> wave = pressure_wave(inside.m[drho], r.m[drho]), given_n = sign * given[axis];
     const Vec<Real> u_n = 2 * given_n + wave - memory[1];
-    memory[1] += 4 * half_rate * (u_n - given_n);
+    memory[1] += static_cast<Real>(inlet_to_outlet) * 4 * half_rate * (u_n - given_n);
     for (int a = 0; a < 3; ++a) r.m[ux + a] = 2 * (a == axis ? sign * u_n : given[a]) - inside.m[ux + a];
     return r;
   }
