@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "lbm/boundary.hpp"
 
-#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -65,10 +64,6 @@ template <class S>
 void BoundaryFill<S>::add(int level, int id) {
   const std::vector<int> axes = axes_beyond(forest_, id);
   const auto face = [&](int axis) -> const fluid::Face& { return specification_.face[face_beyond(forest_, id, axis)]; };
-  const auto is = [&](int axis, fluid::Boundary type) { return face(axis).type == type; };
-  const auto wall = [&](int axis) {
-    return is(axis, fluid::Boundary::no_slip) || is(axis, fluid::Boundary::free_slip);
-  };
   Item item{id, amr::none, axes.back(), 0, -1, -1, false};
   for (const int a : axes)
     if (!radiates(face(a))) item.axis = a;
@@ -87,15 +82,24 @@ void BoundaryFill<S>::add(int level, int id) {
     memories_.emplace_back();
   }
   items_[level][axes.size() - 1].push_back(item);
-  const bool sticks = std::ranges::any_of(axes, [&](int a) { return is(a, fluid::Boundary::no_slip); });
-  if (axes.size() == 2 && wall(axes[0]) && wall(axes[1]) && sticks) {
-    WallEdge edge{id, {}};
-    for (int i = 0; i < 2; ++i) edge.outward[i][axes[i]] = forest_.block(id).index[axes[i]] < 0 ? -1 : 1;
-    Index3 inwards;
-    for (int a = 0; a < 3; ++a) inwards[a] = -edge.outward[0][a] - edge.outward[1][a];
-    const int inner = forest_.block(id).neighbour[amr::neighbour_slot(inwards[0], inwards[1], inwards[2])];
-    if (forest_.block(inner).kind == amr::Kind::leaf) edges_[level].push_back(edge);
+  if (axes.size() == 2) add_wall_edge(level, id, axes);
+}
+
+/// If it is an edge between walls of which one is without slip, and a leaf lies in it.
+template <class S>
+void BoundaryFill<S>::add_wall_edge(int level, int id, const std::vector<int>& axes) {
+  WallEdge edge{id, {}};
+  Index3 inwards{0, 0, 0};
+  int sticking = 0;
+  for (int i = 0; i < 2; ++i) {
+    const fluid::Boundary type = specification_.face[face_beyond(forest_, id, axes[i])].type;
+    if (type != fluid::Boundary::no_slip && type != fluid::Boundary::free_slip) return;
+    sticking += type == fluid::Boundary::no_slip;
+    edge.outward[i][axes[i]] = forest_.block(id).index[axes[i]] < 0 ? -1 : 1;
+    inwards[axes[i]] = -edge.outward[i][axes[i]];
   }
+  const int inner = forest_.block(id).neighbour[amr::neighbour_slot(inwards[0], inwards[1], inwards[2])];
+  if (sticking > 0 && forest_.block(inner).kind == amr::Kind::leaf) edges_[level].push_back(edge);
 }
 
 template <class S>

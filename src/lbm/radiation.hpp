@@ -3,11 +3,12 @@
 //
 // Outlet: every quantity radiates with the speed of sound,
 //   dq/dt + (c + u_n) dq/dn = -K (q - q_far),
-// and only the pressure is drawn towards a given value (K = 0 for the velocity). A slow change, such as a wake, sees
-// gradients of zero. The characteristic outlet of Poinsot & Lele (J. Comput. Phys. 101 (1992) 104) holds the wave that
-// comes in, p - rho c u_n, instead, and takes an eddy's u_n for a wave, an error of rho c u against its own pressure of
-// rho u^2: too large at low Mach numbers. Between the cell beyond the face and the one before it the equation is solved
-// by the box scheme, second order and all-pass (Mur, IEEE Trans. Electromagn. Compat. 23 (1981) 377).
+// and only the pressure is drawn towards a given value (K = 0 for the velocity, see `draw`). A slow change, such as a
+// wake, sees gradients of zero. The characteristic outlet of Poinsot & Lele (J. Comput. Phys. 101 (1992) 104) holds the
+// wave that comes in, p - rho c u_n, instead, and takes an eddy's u_n for a wave, an error of rho c u against its own
+// pressure of rho u^2: too large at low Mach numbers. Between the cell beyond the face and the one before it the
+// equation is solved by the box scheme, second order and all-pass (Mur, IEEE Trans. Electromagn. Compat. 23 (1981)
+// 377).
 //
 // Inlet: pressure radiates; of the two waves, in velocity units a = p/(rho c), the one that comes in is a - u_n. It
 // carries the given velocity, and what has come out slowly comes back,
@@ -29,6 +30,10 @@ namespace drogue::lbm {
 inline constexpr double sound_speed = 0.57735026918962576;  ///< c in cells per step
 
 inline constexpr double inlet_to_outlet = 3.0;  ///< K_in / K
+
+/// Pressure alone is drawn, and enters by c^2 drho - u_n, of which a wave that comes in, drho = -u_n / c, makes 1 + 1/c
+/// times as much: so much more must pressure be drawn for the wave to be drawn by K.
+inline constexpr double draw = 1.0 + 1.0 / sound_speed;
 
 /// K / 2 per step, for a domain that is so many cells long.
 constexpr double half_relaxation(double cells) { return 0.5 * 0.25 * sound_speed / cells; }
@@ -63,13 +68,13 @@ struct OpenFace {
   Row<Real> outlet(const Row<Real>& inside, Real far, FaceMemory<Real>& memory) const {
     Row<Real> r = inside;
     const Vec<Real> c = speed(inside);
-    r.m[drho] = radiate(inside.m[drho], c, half_rate, far, memory[0]);
+    r.m[drho] = radiate(inside.m[drho], c, static_cast<Real>(draw) * half_rate, far, memory[0]);
     for (int a = 0; a < 3; ++a) r.m[ux + a] = radiate(inside.m[ux + a], c, Real(0), Real(0), memory[1 + a]);
     return r;
   }
   FaceMemory<Real> outlet_memory(const Row<Real>& inside, Real far) const {
     FaceMemory<Real> memory;
-    memory[0] = radiated(inside.m[drho], half_rate, far);
+    memory[0] = radiated(inside.m[drho], static_cast<Real>(draw) * half_rate, far);
     for (int a = 0; a < 3; ++a) memory[1 + a] = radiated(inside.m[ux + a], Real(0), Real(0));
     return memory;
   }

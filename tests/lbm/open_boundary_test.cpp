@@ -81,11 +81,11 @@ EddyLeft eddy_left(const Open& open, double time) {
           fluid::largest_pressure(box, all) / (0.02 * std::numbers::e)};
 }
 
-/// Measured: 1.2 % and 1.5 %. Of a pulse of width w the relaxation alone leaves K / 2 times its integral over time,
-/// 0.125 sqrt(pi) w / L = 0.7 %.
+/// Of a pulse of width w, relaxation alone leaves K / 2 (outlet) or K_in (inlet) times its integral over time, sqrt(pi)
+/// w / c: 0.7 % and 4.2 % in this channel.
 TEST(OpenBoundary, a_plane_pulse_leaves_through_outlet_and_inlet) {
   EXPECT_LT(pressure_left({}, 1, 0.0, 0.5, 1.0), 0.02);
-  EXPECT_LT(pressure_left({}, -1, 0.0, 0.5, 1.1), 0.02);
+  EXPECT_LT(pressure_left({}, -1, 0.0, 0.5, 1.1), 0.05);
   EXPECT_GT(pressure_left({true}, 1, 0.0, 0.5, 1.0), 0.9);
   EXPECT_GT(pressure_left({true}, -1, 0.0, 0.5, 1.1), 0.9);
 }
