@@ -212,25 +212,33 @@ void BoundaryFill<S>::balance(int level, double keep, const MomentField<S>& star
   for (const auto& [target, outward] : edges_[level]) {
     const auto& [o, p] = outward;
     const int along = o[0] == 0 && p[0] == 0 ? 0 : o[1] == 0 && p[1] == 0 ? 1 : 2;
-    int leaf = amr::none;
-    Index3 cell;
-    const auto sent = [&](bool beyond_o, bool beyond_p) {
-      Index3 block, direction;
+    const auto at = [&](bool beyond_o, bool beyond_p) {
+      struct {
+        int block;
+        Index3 cell, direction;
+      } place;
+      Index3 offset;
       for (int a = 0; a < 3; ++a) {
         const int out = o[a] + p[a];
         const bool beyond = o[a] != 0 ? beyond_o : beyond_p;
-        block[a] = beyond ? 0 : -out;
-        cell[a] = out == 0 || (out > 0) == beyond ? 0 : n - 1;
-        direction[a] = beyond ? -out : out;
+        offset[a] = beyond ? 0 : -out;
+        place.cell[a] = out == 0 || (out > 0) == beyond ? 0 : n - 1;
+        place.direction[a] = beyond ? -out : out;
       }
-      leaf = forest_.block(target).neighbour[amr::neighbour_slot(block[0], block[1], block[2])];
-      return population_along(RowLayout<S>::load_line(start.block(leaf), cell, along), static_cast<Real>(keep),
+      place.block = forest_.block(target).neighbour[amr::neighbour_slot(offset[0], offset[1], offset[2])];
+      return place;
+    };
+    const auto sent = [&](bool beyond_o, bool beyond_p) {
+      const auto [block, cell, direction] = at(beyond_o, beyond_p);
+      return population_along(RowLayout<S>::load_line(start.block(block), cell, along), static_cast<Real>(keep),
                               third_order, direction);
     };
     const Vec<Real> surplus = sent(true, true) - sent(true, false) - sent(false, true) + sent(false, false);
+    const auto inner = at(false, false);
     for (int i = 0; i < n; ++i) {
+      Index3 cell = inner.cell;
       cell[along] = i;
-      end.add(leaf, cell, drho, -surplus[i]);
+      end.add(inner.block, cell, drho, -surplus[i]);
     }
   }
 }

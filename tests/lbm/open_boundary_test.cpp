@@ -68,13 +68,13 @@ struct EddyLeft {
   double velocity, pressure;  // over their amplitudes
 };
 
-/// An eddy of 1 m in diameter and a swirl of 0.2 m/s, carried out of a box of 4 m from its middle; `time` [s] later.
+/// An eddy of 1 m in diameter and a swirl of 0.2 m/s, carried out of a box of 6 m from its middle; `time` [s] later.
 EddyLeft eddy_left(const Open& open, double time) {
   auto s = stream(open);
-  s.initial_velocity = {Expression("1-0.4*(y-2)*exp(0.5-2*((x-2)^2+(y-2)^2))"),
-                        Expression("0.4*(x-2)*exp(0.5-2*((x-2)^2+(y-2)^2))"), Expression(0.0)};
-  s.initial_pressure = Expression("-0.02*exp(1-4*((x-2)^2+(y-2)^2))");
-  Solver box = solver(s, 4.0, 4.0);
+  s.initial_velocity = {Expression("1-0.4*(y-2)*exp(0.5-2*((x-3)^2+(y-2)^2))"),
+                        Expression("0.4*(x-3)*exp(0.5-2*((x-3)^2+(y-2)^2))"), Expression(0.0)};
+  s.initial_pressure = Expression("-0.02*exp(1-4*((x-3)^2+(y-2)^2))");
+  Solver box = solver(s, 6.0, 4.0);
   while (box.time() < time) box.step(nullptr);
   const Box& all = box.forest().domain().box;
   return {fluid::largest_velocity_deviation(box, all, Vec3::UnitX()) / 0.2,
@@ -82,10 +82,10 @@ EddyLeft eddy_left(const Open& open, double time) {
 }
 
 /// Of a pulse of width w, relaxation alone leaves K / 2 (outlet) or K_in (inlet) times its integral over time, sqrt(pi)
-/// w / c: 0.7 % and 4.2 % in this channel.
+/// w / c: 1.4 % and 5.5 % in this channel.
 TEST(OpenBoundary, a_plane_pulse_leaves_through_outlet_and_inlet) {
-  EXPECT_LT(pressure_left({}, 1, 0.0, 0.5, 1.0), 0.02);
-  EXPECT_LT(pressure_left({}, -1, 0.0, 0.5, 1.1), 0.05);
+  EXPECT_LT(pressure_left({}, 1, 0.0, 0.5, 1.0), 0.03);
+  EXPECT_LT(pressure_left({}, -1, 0.0, 0.5, 1.1), 0.065);
   EXPECT_GT(pressure_left({true}, 1, 0.0, 0.5, 1.0), 0.9);
   EXPECT_GT(pressure_left({true}, -1, 0.0, 0.5, 1.1), 0.9);
 }
@@ -96,7 +96,7 @@ TEST(OpenBoundary, an_oblique_wave_leaves_but_for_what_theory_reflects) {
 }
 
 TEST(OpenBoundary, an_eddy_leaves_through_the_outlet) {
-  const EddyLeft left = eddy_left({}, 4.0);
+  const EddyLeft left = eddy_left({}, 5.0);
   EXPECT_LT(left.velocity, 0.01);
   EXPECT_LT(left.pressure, 0.1);
 }
@@ -121,7 +121,7 @@ TEST(OpenBoundary, DISABLED_table) {
                                                            {"sound leaves", {false, 0.0}},
                                                            {"sound leaves, sponge", {false, 1.0}}}};
   for (const auto& [name, open] : kinds) {
-    const EddyLeft eddy = eddy_left(open, 4.0);
+    const EddyLeft eddy = eddy_left(open, 5.0);
     std::printf("| %s | %.4f | %.4f | %.4f | %.4f | %.4f | %.4f | %.4f |\n", name,
                 pressure_left(open, 1, 0.0, 0.5, 1.0), pressure_left(open, -1, 0.0, 0.5, 1.1),
                 pressure_left(open, 1, 30.0, 2.0, 1.4), pressure_left(open, 1, 45.0, 2.0, 1.8),
