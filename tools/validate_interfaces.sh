@@ -36,7 +36,7 @@ if [[ ${1:-} != --table ]]; then
     # shellcheck disable=SC2086
     $drogue run cases/$folder $arguments -o "$runs/$name" --force --quiet </dev/null || echo "  exit code $?"
   done < <(matrix)
-  build/test_lbm --gtest_also_run_disabled_tests --gtest_filter='OpenBoundary.DISABLED_table' | grep '^|' >"$runs/boundaries.txt"
+  build/test_lbm --gtest_also_run_disabled_tests --gtest_filter='OpenBoundary.DISABLED_table' | grep '^|' | sed '1a |---|---|---|---|---|---|---|---|' >"$runs/boundaries.txt"
 fi
 {
   echo '| run | case | what differs | result | value |'
