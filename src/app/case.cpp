@@ -16,6 +16,7 @@ bool has_wake(const Body& body) {
 
 bool measures_energy(const Case& c) { return c.measure.energy; }
 bool measures_error(const Case& c) { return c.measure.exact_velocity.has_value(); }
+bool measures_residual(const Case& c) { return c.measure.residual.has_value(); }
 
 int level_of(double coarsest, double spacing) {
   const double level = std::log2(coarsest / spacing);

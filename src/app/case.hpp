@@ -92,16 +92,26 @@ struct Profile {
   }
 };
 
+/// What something that passes leaves behind: the largest deviation in a box, over its own amplitude.
+struct Residual {
+  Box box;                       ///< [m] where the fluid should be undisturbed again
+  bool of_pressure = false;      ///< else of the velocity
+  Vec3 velocity = Vec3::Zero();  ///< [m/s] undisturbed
+  double amplitude = 0.0;        ///< [m/s] or [Pa]
+};
+
 /// What is measured of the flow besides what every run tells.
 struct Measure {
   bool energy = false;
   Curve dissipation_reference;  ///< time and dissipation, in units of reference velocity and length; may be empty
   std::optional<std::array<Expression, 3>> exact_velocity;  ///< [m/s]
+  std::optional<Residual> residual;
   std::vector<Profile> profiles;
 };
 
 bool measures_energy(const Case& c);
 bool measures_error(const Case& c);
+bool measures_residual(const Case& c);
 
 /// Intervals between outputs [s]; 0 for none (history: every coarse step).
 struct Output {

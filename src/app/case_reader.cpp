@@ -48,9 +48,11 @@ fluid::Face read_face(Section face) {
     result.velocity = face.get<Formulas>("velocity", {.unit = "m/s", .doc = "of the wall", .fallback = rest});
   }
   if (all || result.type == fluid::Boundary::velocity || result.type == fluid::Boundary::outlet) {
-    result.reflecting = face.choose<bool>(
-        "sound", {{"leaves", false}, {"reflected", true}},
-        {.doc = "whether sound leaves through a velocity side or an outlet, or comes back", .fallback = "leaves"});
+    result.reflecting =
+        face.choose<bool>("sound", {{"leaves", false}, {"reflected", true}},
+                          {.doc = "whether sound leaves, or comes back because velocity (the default of a velocity "
+                                  "side) or pressure is held",
+                           .fallback = result.type == fluid::Boundary::velocity ? "reflected" : "leaves"});
   }
   if (all || result.type == fluid::Boundary::outlet) {
     result.pressure = face.get<double>("pressure", {.unit = "Pa", .doc = "gauge, at an outlet", .fallback = 0.0});

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "fluid/averages.hpp"
+#include "fluid/deviation.hpp"
 #include "fluid/probe.hpp"
 #include "io/csv.hpp"
 
@@ -22,6 +23,12 @@ double rms_difference(const Profile& profile, const fluid::FluidSolver& fluid) {
     sum += std::pow(probe(profile.at(distance[i])).value().velocity[profile.component] - value[i], 2);
   }
   return std::sqrt(sum / static_cast<double>(distance.size()));
+}
+
+double measured(const Residual& r, const fluid::FluidSolver& fluid) {
+  const double deviation = r.of_pressure ? fluid::largest_pressure(fluid, r.box)
+                                         : fluid::largest_velocity_deviation(fluid, r.box, r.velocity);
+  return deviation / r.amplitude;
 }
 
 }  // namespace
@@ -44,6 +51,7 @@ FlowRow FlowMeasurements::measure(const fluid::FluidSolver& fluid) {
     time_before_ = fluid.time();
   }
   if (m.exact_velocity) row.velocity_error = fluid::relative_velocity_error(fluid, *m.exact_velocity);
+  if (m.residual) row.residual = measured(*m.residual, fluid);
   for (const Profile& p : m.profiles) {
     row.profile_rms.push_back(p.has_reference() ? rms_difference(p, fluid) / case_.fluid.reference_velocity : 0.0);
   }

@@ -69,6 +69,7 @@ constexpr FlowSource flow_columns[] = {
     {{"dissipation", "m^2/s^3", [](F f) { return f.dissipation; }}, measures_energy},
     {{"enstrophy_dissipation", "m^2/s^3", [](F f) { return f.enstrophy_dissipation; }}, measures_energy},
     {{"velocity_error", "1", [](F f) { return f.velocity_error; }}, measures_error},
+    {{"residual", "1", [](F f) { return f.residual; }}, measures_residual},
 };
 
 using R = const Row&;

@@ -42,6 +42,7 @@ struct FlowRow {
   double dissipation = 0.0;            ///< what the energy lost, mean since the row before [m^2/s^3]
   double enstrophy_dissipation = 0.0;  ///< 2 nu times the enstrophy [m^2/s^3]
   double velocity_error = 0.0;         ///< relative
+  double residual = 0.0;               ///< over the amplitude
   std::vector<double> profile_rms;     ///< over the reference velocity, profile by profile
 };
 

@@ -41,6 +41,21 @@ Profile read_profile(Section& section) {
   return p;
 }
 
+std::optional<Residual> read_residual(Section section) {
+  const auto box =
+      section.find<Box>("box", {.unit = "m",
+                                .doc = "where the fluid should be undisturbed again; makes the column and the "
+                                       "result residual, the largest deviation there over the amplitude"});
+  if (!box && !section.describing()) return std::nullopt;
+  Residual r{box.value_or(Box{})};
+  r.of_pressure = section.choose<bool>("of", {{"velocity", false}, {"pressure", true}},
+                                       {.doc = "what deviates", .fallback = "velocity"});
+  if (section.describing() || !r.of_pressure)
+    r.velocity = section.get<Vec3>("undisturbed", {.unit = "m/s", .doc = "velocity", .fallback = Vec3(0.0, 0.0, 0.0)});
+  r.amplitude = section.get<double>("amplitude", {.doc = "of what has passed, in m/s or Pa", .range = positive});
+  return r;
+}
+
 }  // namespace
 
 Measure read_measure(Section section) {
@@ -57,6 +72,7 @@ Measure read_measure(Section section) {
       "exact_velocity", {.unit = "m/s",
                          .doc = "a solution the flow should have: column and result velocity_error, the "
                                 "relative L2 norm of the difference"});
+  m.residual = read_residual(section.section("residual", "what a wave or an eddy leaves behind"));
   section.each("profile", "a line along which the flow is sampled at the end of the run",
                [&](Section& profile) { m.profiles.push_back(read_profile(profile)); });
   return m;

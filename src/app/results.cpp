@@ -110,6 +110,7 @@ const std::vector<FlowDefinition>& flow_results() {
       {{"dissipation_peak", "", "dissipation", dissipation_peak}, measures_energy},
       {{"dissipation_peak_time", "", "dissipation", dissipation_peak_time}, measures_energy},
       {{"velocity_error", "", "velocity_error", last}, measures_error},
+      {{"residual", "", "residual", last}, measures_residual},
   };
   return list;
 }

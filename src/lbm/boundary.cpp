@@ -64,7 +64,6 @@ template <class S>
 void BoundaryFill<S>::add(int level, int id) {
   const std::vector<int> axes = axes_beyond(forest_, id);
   const auto face = [&](int axis) -> const fluid::Face& { return specification_.face[face_beyond(forest_, id, axis)]; };
-  const auto no_slip = [&](int axis) { return face(axis).type == fluid::Boundary::no_slip; };
   Item item{id, amr::none, axes.back(), 0, -1, -1, false};
   for (const int a : axes)
     if (!radiates(face(a))) item.axis = a;
@@ -83,14 +82,24 @@ void BoundaryFill<S>::add(int level, int id) {
     memories_.emplace_back();
   }
   items_[level][axes.size() - 1].push_back(item);
-  if (axes.size() == 2 && no_slip(axes[0]) && no_slip(axes[1])) {
-    WallEdge edge{id, {}};
-    for (int i = 0; i < 2; ++i) edge.outward[i][axes[i]] = forest_.block(id).index[axes[i]] < 0 ? -1 : 1;
-    Index3 inwards;
-    for (int a = 0; a < 3; ++a) inwards[a] = -edge.outward[0][a] - edge.outward[1][a];
-    const int inner = forest_.block(id).neighbour[amr::neighbour_slot(inwards[0], inwards[1], inwards[2])];
-    if (forest_.block(inner).kind == amr::Kind::leaf) edges_[level].push_back(edge);
+  if (axes.size() == 2) add_wall_edge(level, id, axes);
+}
+
+/// If it is an edge between walls of which one is without slip, and a leaf lies in it.
+template <class S>
+void BoundaryFill<S>::add_wall_edge(int level, int id, const std::vector<int>& axes) {
+  WallEdge edge{id, {}};
+  Index3 inwards{0, 0, 0};
+  int sticking = 0;
+  for (int i = 0; i < 2; ++i) {
+    const fluid::Boundary type = specification_.face[face_beyond(forest_, id, axes[i])].type;
+    if (type != fluid::Boundary::no_slip && type != fluid::Boundary::free_slip) return;
+    sticking += type == fluid::Boundary::no_slip;
+    edge.outward[i][axes[i]] = forest_.block(id).index[axes[i]] < 0 ? -1 : 1;
+    inwards[axes[i]] = -edge.outward[i][axes[i]];
   }
+  const int inner = forest_.block(id).neighbour[amr::neighbour_slot(inwards[0], inwards[1], inwards[2])];
+  if (sticking > 0 && forest_.block(inner).kind == amr::Kind::leaf) edges_[level].push_back(edge);
 }
 
 template <class S>
@@ -203,25 +212,33 @@ void BoundaryFill<S>::balance(int level, double keep, const MomentField<S>& star
   for (const auto& [target, outward] : edges_[level]) {
     const auto& [o, p] = outward;
     const int along = o[0] == 0 && p[0] == 0 ? 0 : o[1] == 0 && p[1] == 0 ? 1 : 2;
-    int leaf = amr::none;
-    Index3 cell;
-    const auto sent = [&](bool beyond_o, bool beyond_p) {
-      Index3 block, direction;
+    const auto at = [&](bool beyond_o, bool beyond_p) {
+      struct {
+        int block;
+        Index3 cell, direction;
+      } place;
+      Index3 offset;
       for (int a = 0; a < 3; ++a) {
         const int out = o[a] + p[a];
         const bool beyond = o[a] != 0 ? beyond_o : beyond_p;
-        block[a] = beyond ? 0 : -out;
-        cell[a] = out == 0 || (out > 0) == beyond ? 0 : n - 1;
-        direction[a] = beyond ? -out : out;
+        offset[a] = beyond ? 0 : -out;
+        place.cell[a] = out == 0 || (out > 0) == beyond ? 0 : n - 1;
+        place.direction[a] = beyond ? -out : out;
       }
-      leaf = forest_.block(target).neighbour[amr::neighbour_slot(block[0], block[1], block[2])];
-      return population_along(RowLayout<S>::load_line(start.block(leaf), cell, along), static_cast<Real>(keep),
+      place.block = forest_.block(target).neighbour[amr::neighbour_slot(offset[0], offset[1], offset[2])];
+      return place;
+    };
+    const auto sent = [&](bool beyond_o, bool beyond_p) {
+      const auto [block, cell, direction] = at(beyond_o, beyond_p);
+      return population_along(RowLayout<S>::load_line(start.block(block), cell, along), static_cast<Real>(keep),
                               third_order, direction);
     };
     const Vec<Real> surplus = sent(true, true) - sent(true, false) - sent(false, true) + sent(false, false);
+    const auto inner = at(false, false);
     for (int i = 0; i < n; ++i) {
+      Index3 cell = inner.cell;
       cell[along] = i;
-      end.add(leaf, cell, drho, -surplus[i]);
+      end.add(inner.block, cell, drho, -surplus[i]);
     }
   }
 }

@@ -8,7 +8,7 @@
 //   outlet      u kept, p -> 2 p_face - p
 // drho and Pneq are kept where nothing else is said. Cells beyond two or three faces are mirrored once per face, walls
 // last; in an edge between two faces that fix the velocity only once, which is what bounce-back does to the population
-// that crosses the edge. Where two no-slip walls meet, the images make a little mass, which is taken away again.
+// that crosses the edge. At the edges of no-slip walls the images make a little mass, which is taken away again.
 #pragma once
 
 #include <vector>
@@ -35,7 +35,7 @@ class BoundaryFill {
   void start(int level, const MomentField<S>& field);
   /// Fills the boundary blocks of `level` at `time` [s]; leaves and ghosts of the level must be up to date.
   void operator()(int level, double time, MomentField<S>& field);
-  /// Takes from the leaves of `end` the mass that edges between no-slip walls made in the step from `start`. `keep` is
+  /// Takes from the leaves of `end` the mass that edges of no-slip walls made in the step from `start`. `keep` is
   /// the share 1 - 1/tau of Pneq that survives a collision.
   void balance(int level, double keep, const MomentField<S>& start, MomentField<S>& end) const;
   void transfer_state(Archive& archive);
@@ -48,7 +48,7 @@ class BoundaryFill {
     int memory;        // of an open face; -1 if it has none
     bool beyond_wall;  // the source is already the image in another wall
   };
-  struct WallEdge {  // between two no-slip walls
+  struct WallEdge {  // between two walls, at least one without slip
     int target;
     std::array<Index3, 2> outward;  // directions of the walls
   };
@@ -56,6 +56,7 @@ class BoundaryFill {
   using Memory = std::array<FaceMemory<Real>, amr::block_size>;  // per line of the layer
 
   void add(int level, int id);
+  void add_wall_edge(int level, int id, const std::vector<int>& axes);
   void update_table(const Item& item, double time);
   static Row<Real> load_layer(const std::byte* block, const Item& item, int depth, int line);
   static void store_layer(std::byte* block, const Item& item, int depth, int line, const Row<Real>& r);

@@ -3,20 +3,23 @@
 //
 // Outlet: every quantity radiates with the speed of sound,
 //   dq/dt + (c + u_n) dq/dn = -K (q - q_far),
-// and only the pressure is drawn towards a given value (K = 0 for the velocity). A slow change, such as a wake, sees
-// gradients of zero. The characteristic outlet of Poinsot & Lele (J. Comput. Phys. 101 (1992) 104) holds the wave that
-// comes in, p - rho c u_n, instead, and takes an eddy's u_n for a wave, an error of rho c u against its own pressure of
-// rho u^2: too large at low Mach numbers. Between the cell beyond the face and the one before it the equation is solved
-// by the box scheme, second order and all-pass (Mur, IEEE Trans. Electromagn. Compat. 23 (1981) 377).
+// and only the pressure is drawn towards a given value (K = 0 for the velocity, see `draw`). A slow change, such as a
+// wake, sees gradients of zero. The characteristic outlet of Poinsot & Lele (J. Comput. Phys. 101 (1992) 104) holds the
+// wave that comes in, p - rho c u_n, instead, and takes an eddy's u_n for a wave, an error of rho c u against its own
+// pressure of rho u^2: too large at low Mach numbers. Between the cell beyond the face and the one before it the
+// equation is solved by the box scheme, second order and all-pass (Mur, IEEE Trans. Electromagn. Compat. 23 (1981)
+// 377).
 //
 // Inlet: pressure radiates; of the two waves, in velocity units a = p/(rho c), the one that comes in is a - u_n. It
 // carries the given velocity, and what has come out slowly comes back,
-//   a - u_n = m - 2 u_given,   dm/dt = 2 K (u_n - u_given),
+//   a - u_n = m - 2 u_given,   dm/dt = 2 K_in (u_n - u_given),
 // so that u_n = u_given in the mean, whatever the pressure.
 //
-// Both leave waves slower than K alone. Plane waves of frequency omega are reflected by K / sqrt(4 omega^2 + K^2).
-// K = 1/4 c / L, with L the length of the domain along n, is the usual choice (Rudy & Strikwerda, J. Comput. Phys. 36
-// (1980) 55).
+// Waves slower than K come back: K / sqrt(4 omega^2 + K^2) of a plane wave of frequency omega at an outlet, K_in /
+// sqrt(omega^2 + K_in^2) at an inlet. The usual K is 1/4 c / L, with L the length of the domain along n (Rudy &
+// Strikwerda, J. Comput. Phys. 36 (1980) 55). An inlet and an outlet that face each other settle as exp(s t) with (s +
+// K_in)(2 s + K) + K_in K = 0. Twice the usual K and K_in = 2 K make that s = (-0.63 +- 0.33 i) c / L: within two
+// passages of sound, practically without oscillation.
 #pragma once
 
 #include <array>
@@ -27,8 +30,14 @@ namespace drogue::lbm {
 
 inline constexpr double sound_speed = 0.57735026918962576;  ///< c in cells per step
 
+inline constexpr double inlet_to_outlet = 2.0;  ///< K_in / K
+
+/// Pressure alone is drawn, and enters by c^2 drho - u_n, of which a wave that comes in, drho = -u_n / c, makes 1 + 1/c
+/// times as much: so much more must pressure be drawn for the wave to be drawn by K.
+inline constexpr double draw = 1.0 + 1.0 / sound_speed;
+
 /// K / 2 per step, for a domain that is so many cells long.
-constexpr double half_relaxation(double cells) { return 0.5 * 0.25 * sound_speed / cells; }
+constexpr double half_relaxation(double cells) { return 0.5 * 0.5 * sound_speed / cells; }
 
 /// What a line of cells at an open face remembers: of an outlet, for drho and u; of an inlet, for drho and m.
 template <class Real>
@@ -60,13 +69,13 @@ struct OpenFace {
   Row<Real> outlet(const Row<Real>& inside, Real far, FaceMemory<Real>& memory) const {
     Row<Real> r = inside;
     const Vec<Real> c = speed(inside);
-    r.m[drho] = radiate(inside.m[drho], c, half_rate, far, memory[0]);
+    r.m[drho] = radiate(inside.m[drho], c, static_cast<Real>(draw) * half_rate, far, memory[0]);
     for (int a = 0; a < 3; ++a) r.m[ux + a] = radiate(inside.m[ux + a], c, Real(0), Real(0), memory[1 + a]);
     return r;
   }
   FaceMemory<Real> outlet_memory(const Row<Real>& inside, Real far) const {
     FaceMemory<Real> memory;
-    memory[0] = radiated(inside.m[drho], half_rate, far);
+    memory[0] = radiated(inside.m[drho], static_cast<Real>(draw) * half_rate, far);
     for (int a = 0; a < 3; ++a) memory[1 + a] = radiated(inside.m[ux + a], Real(0), Real(0));
     return memory;
   }
@@ -76,7 +85,7 @@ struct OpenFace {
     r.m[drho] = radiate(inside.m[drho], speed(inside), Real(0), Real(0), memory[0]);
     const Vec<Real> wave = pressure_wave(inside.m[drho], r.m[drho]), given_n = sign * given[axis];
     const Vec<Real> u_n = 2 * given_n + wave - memory[1];
-    memory[1] += 4 * half_rate * (u_n - given_n);
+    memory[1] += static_cast<Real>(inlet_to_outlet) * 4 * half_rate * (u_n - given_n);
     for (int a = 0; a < 3; ++a) r.m[ux + a] = 2 * (a == axis ? sign * u_n : given[a]) - inside.m[ux + a];
     return r;
   }
