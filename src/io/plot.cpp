@@ -75,7 +75,7 @@ std::string axis(char name, const Axis& axis, std::array<double, 2> span) {
   if (axis.scale != Scale::logarithmic) {
     text += fmt::format("unset logscale {0}\nset format {0} '%g'\n", name);
   } else {
-    const bool decades = span[1] >= 1e2 * span[0];
+    const bool decades = span[1] >= 30.0 * span[0];
     text += fmt::format("set logscale {0}\nset format {0} '{1}'\n", name, decades ? "10^{{%L}}" : "%g");
   }
   return text;
