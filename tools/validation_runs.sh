@@ -3,7 +3,8 @@
 # Sourced by the scripts that validate: makes the runs of a matrix and writes tables of their results into
 # docs/validation.md. A script defines `runs`, a folder, and `matrix`, which prints a line for each run:
 #   name | case | what it changes | arguments of ./drogue run
-# A run that exists is kept, so tables can be extended one run at a time. DROGUE names another program than ./drogue.
+# A run that exists is kept, and so is the row of a run that is not here, so tables can be extended one run at a time. DROGUE names
+# another program than ./drogue.
 page=docs/validation.md
 drogue=${DROGUE:-./drogue}
 
@@ -21,12 +22,12 @@ make_runs() {
 
 value() { sed -n "s/^ *\"$2\": \([-0-9.e+]*\|null\|true\|false\),\{0,1\}$/\1/p" "$1" | head -n 1; }
 
-# row NAME WHAT KEY...: the results of a run as a line of a table; nothing if there is no such run.
+# row NAME WHAT KEY...: the results of a run as a line of a table; without such a run, its line as it stands in the page, if any.
 row() {
   local name=$1 what=$2 summary=$runs/$1/summary.json key results=()
-  [[ -f $summary ]] || return 0
+  [[ -f $summary ]] || { grep "^| \`$name\` |" "$page" || true; return; }
   for key in "${@:3}"; do
-    results+=("$(value "$summary" "$key" | awk '{ printf $1 == "null" || $1 == "" ? "-" : "%.4g", $1 }')")
+    results+=("$(value "$summary" "$key" | { grep . || echo -; } | awk '{ printf $1 == "null" || $1 == "-" ? "-" : "%.4g", $1 }')")
   done
   [[ $(value "$summary" finished) == true ]] || what+=" (ended at $(value "$summary" t_end | awk '{ printf "%.2f", $1 }') s)"
   printf '| `%s` | %s |' "$name" "$what"

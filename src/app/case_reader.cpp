@@ -47,6 +47,11 @@ fluid::Face read_face(Section face) {
   } else if (result.type == fluid::Boundary::no_slip) {
     result.velocity = face.get<Formulas>("velocity", {.unit = "m/s", .doc = "of the wall", .fallback = rest});
   }
+  if (all || result.type == fluid::Boundary::velocity || result.type == fluid::Boundary::outlet) {
+    result.reflecting = face.choose<bool>(
+        "sound", {{"leaves", false}, {"reflected", true}},
+        {.doc = "whether sound leaves through a velocity side or an outlet, or comes back", .fallback = "leaves"});
+  }
   if (all || result.type == fluid::Boundary::outlet) {
     result.pressure = face.get<double>("pressure", {.unit = "Pa", .doc = "gauge, at an outlet", .fallback = 0.0});
     result.sponge = face.get<double>("sponge", {.unit = "m",

@@ -18,6 +18,7 @@ struct Face {
   std::array<Expression, 3> velocity;  ///< [m/s], functions of x, y, z, t; for `velocity` (and a moving `no_slip` wall)
   double ramp = 0.0;                   ///< [s] time over which the velocity rises (cosine) from zero
   double pressure = 0.0;               ///< gauge [Pa]; for `outlet`
+  bool reflecting = false;             ///< does sound come back from a `velocity` face or an `outlet`?
   double sponge =
       0.0;  ///< [m] depth of a layer that damps towards the initial velocity and the face's pressure; 0: none
 };

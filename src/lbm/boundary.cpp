@@ -4,6 +4,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "lbm/d3q19.hpp"
+
 namespace drogue::lbm {
 namespace {
 
@@ -11,6 +13,10 @@ constexpr int n = amr::block_size;
 
 bool fixes_velocity(const fluid::Face& face) {
   return face.type == fluid::Boundary::velocity || face.type == fluid::Boundary::no_slip;
+}
+
+bool radiates(const fluid::Face& face) {
+  return !face.reflecting && (face.type == fluid::Boundary::velocity || face.type == fluid::Boundary::outlet);
 }
 
 /// Is the velocity on this face given by a formula that differs from cell to cell or in time?
@@ -27,41 +33,81 @@ bool depends_on_time(const fluid::Face& face) {
   return false;
 }
 
+/// Axes along which a block of the forest lies outside the domain.
+std::vector<int> axes_beyond(const amr::Forest& forest, int id) {
+  const amr::Block& block = forest.block(id);
+  const Index3 across = forest.blocks_across(block.level);
+  std::vector<int> axes;
+  for (int a = 0; a < 3; ++a)
+    if (block.index[a] < 0 || block.index[a] >= across[a]) axes.push_back(a);
+  return axes;
+}
+
+int face_beyond(const amr::Forest& forest, int id, int axis) { return 2 * axis + (forest.block(id).index[axis] >= 0); }
+
 }  // namespace
 
 template <class S>
 BoundaryFill<S>::BoundaryFill(const amr::Forest& forest, const fluid::Specification& specification, const Units& units)
-    : forest_(forest), specification_(specification), units_(units), items_(forest.levels()) {
+    : forest_(forest),
+      specification_(specification),
+      units_(units),
+      items_(forest.levels(), std::vector<std::vector<Item>>(3)),
+      edges_(forest.levels()) {
   for (int level = 0; level < forest.levels(); ++level) {
-    items_[level].resize(3);
-    const Index3 across = forest.blocks_across(level);
     const auto range = forest.range(level, amr::Kind::boundary);
-    for (int id = range.begin; id < range.end; ++id) {
-      Index3 index = forest.block(id).index;
-      int faces = 0;
-      Item item{id, amr::none, 0, 0, -1, false};
-      for (int a = 0; a < 3; ++a) {
-        if (index[a] >= 0 && index[a] < across[a]) continue;
-        item.beyond_wall |= faces > 0 && fixes_velocity(specification.face[item.face]);
-        ++faces;
-        item.axis = a;
-        item.face = 2 * a + (index[a] >= across[a]);
-      }
-      index[item.axis] += item.face & 1 ? -1 : 1;
-      item.source = forest.find(level, index);
-      if (needs_table(specification.face[item.face])) {
-        item.table = static_cast<int>(tables_.size());
-        tables_.emplace_back(n);
-        update_table(item, 0.0);
-      }
-      items_[level][faces - 1].push_back(item);
+    for (int id = range.begin; id < range.end; ++id) add(level, id);
+  }
+}
+
+template <class S>
+void BoundaryFill<S>::add(int level, int id) {
+  const std::vector<int> axes = axes_beyond(forest_, id);
+  const auto face = [&](int axis) -> const fluid::Face& { return specification_.face[face_beyond(forest_, id, axis)]; };
+  const auto no_slip = [&](int axis) { return face(axis).type == fluid::Boundary::no_slip; };
+  Item item{id, amr::none, axes.back(), 0, -1, -1, false};
+  for (const int a : axes)
+    if (!radiates(face(a))) item.axis = a;
+  item.face = face_beyond(forest_, id, item.axis);
+  for (const int a : axes) item.beyond_wall |= a != item.axis && fixes_velocity(face(a));
+  Index3 source = forest_.block(id).index;
+  source[item.axis] += item.face & 1 ? -1 : 1;
+  item.source = forest_.find(level, source);
+  if (needs_table(face(item.axis))) {
+    item.table = static_cast<int>(tables_.size());
+    tables_.emplace_back(n);
+    update_table(item, 0.0);
+  }
+  if (axes.size() == 1 && radiates(face(item.axis))) {
+    item.memory = static_cast<int>(memories_.size());
+    memories_.emplace_back();
+  }
+  items_[level][axes.size() - 1].push_back(item);
+  if (axes.size() == 2 && no_slip(axes[0]) && no_slip(axes[1])) {
+    WallEdge edge{id, {}};
+    for (int i = 0; i < 2; ++i) edge.outward[i][axes[i]] = forest_.block(id).index[axes[i]] < 0 ? -1 : 1;
+    Index3 inwards;
+    for (int a = 0; a < 3; ++a) inwards[a] = -edge.outward[0][a] - edge.outward[1][a];
+    const int inner = forest_.block(id).neighbour[amr::neighbour_slot(inwards[0], inwards[1], inwards[2])];
+    if (forest_.block(inner).kind == amr::Kind::leaf) edges_[level].push_back(edge);
+  }
+}
+
+template <class S>
+void BoundaryFill<S>::start(int level, const MomentField<S>& field) {
+  for (const Item& item : items_[level][0]) {
+    if (item.memory < 0) continue;
+    const bool outlet = specification_.face[item.face].type == fluid::Boundary::outlet;
+    const OpenFace<Real> open = open_face(item);
+    for (int line = 0; line < n; ++line) {
+      const Row<Real> inside = load_layer(field.block(item.source), item, item.face & 1 ? n - 1 : 0, line);
+      memories_[item.memory][line] = outlet ? open.outlet_memory(inside, far_density(item)) : open.inlet_memory(inside);
     }
   }
 }
 
 template <class S>
 void BoundaryFill<S>::operator()(int level, double time, MomentField<S>& field) {
-  using Layout = RowLayout<S>;
   for (const auto& items : items_[level]) {
     for (const Item& item : items)
       if (item.table >= 0 && depends_on_time(specification_.face[item.face])) update_table(item, time);
@@ -71,27 +117,31 @@ void BoundaryFill<S>::operator()(int level, double time, MomentField<S>& field) 
       const Item& item = items[i];
       const double rise = specification_.face[item.face].ramp;
       const double ramp = time < rise ? 0.5 * (1.0 - std::cos(std::numbers::pi * time / rise)) : 1.0;
-      const std::byte* from = field.block(item.source);
-      std::byte* to = field.block(item.target);
       const bool high = item.face & 1;
-      const int inner = high ? n - 1 : 0, outer = high ? 0 : n - 1;
       for (int line = 0; line < n; ++line) {
-        if (item.axis == 0) {
-          const Row<Real> r = Layout::load_column(from, inner, line * n, 1);
-          Layout::store_column(to, outer, line * n, 1, reflect(item, r, line, ramp));
-        } else {
-          const int inner_row = item.axis == 1 ? line * n + inner : inner * n + line;
-          const int outer_row = item.axis == 1 ? line * n + outer : outer * n + line;
-          const Row<Real> r = Layout::load_row(from + inner_row * Layout::bytes);
-          Layout::store_row(to + outer_row * Layout::bytes, reflect(item, r, line, ramp));
-        }
+        const Row<Real> inside = load_layer(field.block(item.source), item, high ? n - 1 : 0, line);
+        store_layer(field.block(item.target), item, high ? 0 : n - 1, line, beyond(item, inside, line, ramp));
       }
     }
   }
 }
 
 template <class S>
-auto BoundaryFill<S>::reflect(const Item& item, const Row<Real>& inside, int line, double ramp) const -> Row<Real> {
+auto BoundaryFill<S>::load_layer(const std::byte* block, const Item& item, int depth, int line) -> Row<Real> {
+  using Layout = RowLayout<S>;
+  if (item.axis == 0) return Layout::load_column(block, depth, line * n, 1);
+  return Layout::load_row(block + (item.axis == 1 ? line * n + depth : depth * n + line) * Layout::bytes);
+}
+
+template <class S>
+void BoundaryFill<S>::store_layer(std::byte* block, const Item& item, int depth, int line, const Row<Real>& r) {
+  using Layout = RowLayout<S>;
+  if (item.axis == 0) return Layout::store_column(block, depth, line * n, 1, r);
+  Layout::store_row(block + (item.axis == 1 ? line * n + depth : depth * n + line) * Layout::bytes, r);
+}
+
+template <class S>
+auto BoundaryFill<S>::beyond(const Item& item, const Row<Real>& inside, int line, double ramp) -> Row<Real> {
   const fluid::Face& face = specification_.face[item.face];
   Row<Real> r = inside;
   switch (face.type) {
@@ -101,22 +151,79 @@ auto BoundaryFill<S>::reflect(const Item& item, const Row<Real>& inside, int lin
       break;
     }
     case fluid::Boundary::outlet:
-      r.m[drho] = static_cast<Real>(2.0 * face.pressure / units_.pressure) - r.m[drho];
+      if (item.memory >= 0) return open_face(item).outlet(inside, far_density(item), memories_[item.memory][line]);
+      if (face.reflecting) r.m[drho] = 2 * far_density(item) - r.m[drho];
       break;
     case fluid::Boundary::velocity:
-    case fluid::Boundary::no_slip:
+      if (item.memory >= 0)
+        return open_face(item).inlet(inside, face_velocity(item, line, ramp), memories_[item.memory][line]);
+      [[fallthrough]];
+    case fluid::Boundary::no_slip: {
       if (item.beyond_wall) break;
-      for (int a = 0; a < 3; ++a) {
-        const Vec<Real> wall =
-            item.table >= 0 ? tables_[item.table][line][a]
-                            : broadcast(static_cast<Real>(face.velocity[a](Vec3::Zero(), 0.0) / units_.velocity));
-        r.m[ux + a] = static_cast<Real>(2.0 * ramp) * wall - r.m[ux + a];
-      }
+      const auto velocity = face_velocity(item, line, ramp);
+      for (int a = 0; a < 3; ++a) r.m[ux + a] = 2 * velocity[a] - r.m[ux + a];
       break;
+    }
     case fluid::Boundary::periodic:
       break;
   }
   return r;
+}
+
+template <class S>
+auto BoundaryFill<S>::face_velocity(const Item& item, int line, double ramp) const -> std::array<Vec<Real>, 3> {
+  std::array<Vec<Real>, 3> velocity;
+  for (int a = 0; a < 3; ++a)
+    velocity[a] =
+        static_cast<Real>(ramp) *
+        (item.table >= 0 ? tables_[item.table][line][a]
+                         : broadcast(static_cast<Real>(specification_.face[item.face].velocity[a](Vec3::Zero(), 0.0) /
+                                                       units_.velocity)));
+  return velocity;
+}
+
+template <class S>
+auto BoundaryFill<S>::far_density(const Item& item) const -> Real {
+  return static_cast<Real>(specification_.face[item.face].pressure / units_.pressure);
+}
+
+template <class S>
+auto BoundaryFill<S>::open_face(const Item& item) const -> OpenFace<Real> {
+  const int level = forest_.block(item.target).level;
+  const double cells = forest_.domain().box.size()[item.axis] / forest_.spacing(level);
+  return {item.axis, item.face & 1 ? Real(1) : Real(-1), static_cast<Real>(half_relaxation(cells))};
+}
+
+/// With o and p the outward directions of the walls, the cells at the edge send the population o + p across it and get
+/// that of -o - p. The image in wall p sends that of o - p, and the other image p - o, past the fluid; on a wall
+/// without end others would take their place.
+template <class S>
+void BoundaryFill<S>::balance(int level, double keep, const MomentField<S>& start, MomentField<S>& end) const {
+  const bool third_order = specification_.collision != fluid::Collision::bgk;
+  for (const auto& [target, outward] : edges_[level]) {
+    const auto& [o, p] = outward;
+    const int along = o[0] == 0 && p[0] == 0 ? 0 : o[1] == 0 && p[1] == 0 ? 1 : 2;
+    int leaf = amr::none;
+    Index3 cell;
+    const auto sent = [&](bool beyond_o, bool beyond_p) {
+      Index3 block, direction;
+      for (int a = 0; a < 3; ++a) {
+        const int out = o[a] + p[a];
+        const bool beyond = o[a] != 0 ? beyond_o : beyond_p;
+        block[a] = beyond ? 0 : -out;
+        cell[a] = out == 0 || (out > 0) == beyond ? 0 : n - 1;
+        direction[a] = beyond ? -out : out;
+      }
+      leaf = forest_.block(target).neighbour[amr::neighbour_slot(block[0], block[1], block[2])];
+      return population_along(RowLayout<S>::load_line(start.block(leaf), cell, along), static_cast<Real>(keep),
+                              third_order, direction);
+    };
+    const Vec<Real> surplus = sent(true, true) - sent(true, false) - sent(false, true) + sent(false, false);
+    for (int i = 0; i < n; ++i) {
+      cell[along] = i;
+      end.add(leaf, cell, drho, -surplus[i]);
+    }
+  }
 }
 
 template <class S>
@@ -133,6 +240,12 @@ void BoundaryFill<S>::update_table(const Item& item, double time) {
       for (int a = 0; a < 3; ++a)
         tables_[item.table][line][a][lane] = static_cast<Real>(face.velocity[a](position, time) / units_.velocity);
     }
+}
+
+/// What has passed the open faces.
+template <class S>
+void BoundaryFill<S>::transfer_state(Archive& archive) {
+  archive.transfer("memory", std::as_writable_bytes(std::span(memories_)));
 }
 
 #ifdef __F16C__

@@ -11,6 +11,7 @@
 #pragma once
 
 #include <array>
+#include <utility>
 
 #include "lbm/moments.hpp"
 
@@ -83,6 +84,26 @@ struct HermiteSeries {
     }
   }
 };
+
+/// The population of a direction that is known at run time only; `third_order` as the collision has it.
+template <class Real>
+Vec<Real> population_along(const Row<Real>& line, Real keep, bool third_order, const Index3& c) {
+  Vec<Real> v{};
+  const auto choose = [&]<class Series, int... slot>(const Series& g, std::integer_sequence<int, slot...>) {
+    const auto try_slot = [&]<int s>(std::integral_constant<int, s>) {
+      constexpr Index3 o = amr::slot_offset(s);
+      if constexpr (in_lattice(o[0], o[1], o[2]))
+        if (c == o) v = g.template population<o[0], o[1], o[2]>();
+    };
+    (try_slot(std::integral_constant<int, slot>{}), ...);
+  };
+  constexpr auto slots = std::make_integer_sequence<int, 27>{};
+  if (third_order)
+    choose(HermiteSeries<Vec<Real>, true>(line.m, keep), slots);
+  else
+    choose(HermiteSeries<Vec<Real>, false>(line.m, keep), slots);
+  return v;
+}
 
 /// Moments of populations given by `f.template get<cx, cy, cz>()`: drho, u and Pneq.
 template <class T, class Populations>

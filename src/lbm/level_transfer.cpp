@@ -43,11 +43,19 @@ std::vector<Index3> leaf_offsets(const amr::Forest& forest, int id, int farthest
   return offsets;
 }
 
-/// Drops boxes that lie inside an earlier one.
-std::vector<CellBox> without_repeats(const std::vector<CellBox>& boxes) {
-  std::vector<CellBox> kept;
-  for (const CellBox& box : boxes)
-    if (std::none_of(kept.begin(), kept.end(), [&](const CellBox& k) { return k.contains(box); })) kept.push_back(box);
+struct Rim {
+  Index3 offset;
+  CellBox box;
+};
+
+/// The rims towards `offsets`, without those that lie inside an earlier one.
+std::vector<Rim> rims(const std::vector<Index3>& offsets, int layers, int size) {
+  std::vector<Rim> kept;
+  for (const Index3& offset : offsets) {
+    const CellBox box = rim(offset, layers, size);
+    if (std::none_of(kept.begin(), kept.end(), [&](const Rim& k) { return k.box.contains(box); }))
+      kept.push_back({offset, box});
+  }
   return kept;
 }
 
@@ -90,6 +98,53 @@ void close_target(TransferPlan& plan) {
   if (plan.first.back() != static_cast<int>(plan.job.size())) plan.first.push_back(static_cast<int>(plan.job.size()));
 }
 
+/// A job for the part `box` of the rim of `target` that faces `offset`: columns if that is across an x face.
+ResampleJob job_for(int target, const Index3& offset, const CellBox& box) {
+  ResampleJob job{};
+  job.target = target;
+  job.normal = offset[0] != 0 ? 0 : offset[1] != 0 ? 1 : 2;
+  const auto range = [&](int a) { return ResampleJob::Range{box.begin[a], box.end[a]}; };
+  job.layers = range(job.normal);
+  job.lines = range(job.across());
+  job.cells = range(job.along());
+  return job;
+}
+
+/// Sets the source of a job from a function of the place in the pairs, {0 or 1 in x, y, z}.
+template <class F>
+void set_source(ResampleJob& job, const F& id_at) {
+  for (int i = 0; i < 8; ++i) {
+    Index3 place;
+    place[job.normal] = i >> 2;
+    place[job.across()] = i >> 1 & 1;
+    place[job.along()] = i & 1;
+    job.source[i] = id_at(place);
+  }
+}
+
+bool touches_boundary(const amr::Forest& forest, int id) {
+  for (const int neighbour : forest.block(id).neighbour)
+    if (neighbour != amr::none && forest.block(neighbour).kind == amr::Kind::boundary) return true;
+  return false;
+}
+
+/// Parents of `level` of which a part at an x face is read along x, by the interpolation onto a y or z face: where a
+/// host lies beside them. (If a leaf lies between, that part is at a y or z face too.)
+std::vector<bool> read_along_x(const amr::Forest& forest, int level) {
+  std::vector<bool> read(forest.size(), false);
+  const auto is_parent = [&](int id) { return forest.block(id).kind == amr::Kind::parent; };
+  for (const ResampleJob& job : plan_interpolation(forest, level + 1).job) {
+    if (job.normal == 0) continue;
+    std::array<int, 3> host;  // its place in the pairs
+    for (int a = 0; a < 3; ++a) host[a] = 1 - job.rule[a] / 2;
+    const int beside = 1 - host[2];
+    if (!is_parent(job.source[4 * host[0] + 2 * host[1] + beside])) continue;
+    for (int i = 0; i < 4; ++i)
+      if (is_parent(job.source[2 * i + beside])) read[job.source[2 * i + beside]] = true;
+  }
+  return read;
+}
+
 }  // namespace
 
 TransferPlan plan_interpolation(const amr::Forest& forest, int level) {
@@ -97,18 +152,23 @@ TransferPlan plan_interpolation(const amr::Forest& forest, int level) {
   const auto ghosts = forest.range(level, amr::Kind::ghost);
   for (int id = ghosts.begin; id < ghosts.end; ++id) {
     const amr::Block& ghost = forest.block(id);
-    Sides used;
     Index3 half;
+    Sides used;
     for (int a = 0; a < 3; ++a) {
       half[a] = ghost.index[a] & 1;
       used[a] = {half[a] == 0, half[a] == 1};
     }
     const Sides available = available_sides(forest, ghost.parent, used);
-    std::vector<CellBox> boxes;
-    for (const Index3& offset : leaf_offsets(forest, id, 2)) boxes.push_back(rim(offset, 1, n));
-    for (const CellBox& box : without_repeats(boxes)) {
-      ResampleJob job{ghost.parent, id, {}, {0, 0, 0}};
-      for (int a = 0; a < 3; ++a) job.axis[a] = cubic_axis(box.begin[a], box.end[a], half[a], available[a]);
+    for (const auto& [offset, box] : rims(leaf_offsets(forest, id, 2), 1, n)) {
+      ResampleJob job = job_for(id, offset, box);
+      const auto rule = [&](int a) { return 2 * half[a] + available[a][half[a]]; };
+      job.rule = {rule(job.normal), rule(job.across()), rule(job.along())};
+      job.also_rows = touches_boundary(forest, id);
+      set_source(job, [&](const Index3& place) {
+        Index3 o;
+        for (int a = 0; a < 3; ++a) o[a] = available[a][half[a]] ? place[a] + half[a] - 1 : 0;
+        return forest.block(ghost.parent).neighbour[amr::neighbour_slot(o[0], o[1], o[2])];
+      });
       plan.job.push_back(job);
     }
     close_target(plan);
@@ -118,27 +178,52 @@ TransferPlan plan_interpolation(const amr::Forest& forest, int level) {
 
 TransferPlan plan_restriction(const amr::Forest& forest, int level) {
   TransferPlan plan{{}, {0}};
+  const std::vector<bool> also_rows = read_along_x(forest, level);
   const auto parents = forest.range(level, amr::Kind::parent);
   for (int id = parents.begin; id < parents.end; ++id) {
-    const auto offsets = leaf_offsets(forest, id, 3);
-    for (int octant = 0; octant < 8; ++octant) {
-      const Index3 half{octant & 1, octant >> 1 & 1, octant >> 2};
-      std::vector<CellBox> boxes;
-      for (const Index3& o : offsets) {
-        bool touches = true;
-        for (int a = 0; a < 3; ++a) touches &= o[a] == 0 || (o[a] > 0) == (half[a] == 1);
-        if (touches) boxes.push_back(rim(o, depth, n / 2));
-      }
-      const int child = forest.block(id).child[octant];
-      for (const CellBox& box : without_repeats(boxes)) {
-        ResampleJob job{child, id, {}, {half[0] * n / 2, half[1] * n / 2, half[2] * n / 2}};
-        for (int a = 0; a < 3; ++a) job.axis[a] = restriction_axis(box.begin[a], box.end[a]);
-        plan.job.push_back(job);
+    for (const auto& [offset, box] : rims(leaf_offsets(forest, id, 3), depth, n)) {
+      ResampleJob job = job_for(id, offset, box);
+      job.rule.fill(restriction_rule);
+      job.also_rows = also_rows[id] || touches_boundary(forest, id);
+      set_source(job, [&, o = offset](Index3 place) {
+        for (int a = 0; a < 3; ++a)
+          if (o[a] != 0) place[a] = o[a] > 0;  // the children that touch the leaf
+        return forest.block(id).child[4 * place[2] + 2 * place[1] + place[0]];
+      });
+      // a job reads up to 16 lines
+      for (const int begin : {0, n / 2}) {
+        ResampleJob part = job;
+        part.lines = {std::max(job.lines.begin, begin), std::min(job.lines.end, begin + n / 2)};
+        if (part.lines.begin < part.lines.end) plan.job.push_back(part);
       }
     }
     close_target(plan);
   }
   return plan;
+}
+
+std::vector<ColumnDepth> column_depths(const amr::Forest& forest) {
+  std::vector<ColumnDepth> result(forest.size(), {1, 1});
+  const auto keep = [&](int id, int x) {
+    const int side = x >= n / 2, layer = side ? n - 1 - x : x;
+    result[id][side] = std::max(result[id][side], layer + 1);
+  };
+  const auto keep_for = [&](const TransferPlan& plan) {
+    for (const ResampleJob& job : plan.job) {
+      if (job.normal != 0) continue;
+      const Axis axis = axis_of_rule(job.rule[0]);
+      for (int i = job.layers.begin; i < job.layers.end; ++i) {
+        keep(job.target, i);
+        for (int x = axis.start[i]; x < axis.start[i] + axis.taps; ++x)
+          for (int k = 0; k < 4; ++k) keep(job.source[x / n * 4 + k], x % n);
+      }
+    }
+  };
+  for (int level = 0; level < forest.levels(); ++level) {
+    if (level > 0) keep_for(plan_interpolation(forest, level));
+    if (level < forest.finest()) keep_for(plan_restriction(forest, level));
+  }
+  return result;
 }
 
 }  // namespace drogue::lbm

@@ -15,11 +15,16 @@ struct TransferPlan {
 };
 
 /// Rims of the ghosts of `level` that touch a leaf across a face or an edge, from their hosts on `level` - 1. (No
-/// population crosses a corner.)
+/// population crosses a corner.) Rims at y and z faces are rows, with their ends as columns; rims at x faces are
+/// columns, also written as rows where a boundary block mirrors them.
 TransferPlan plan_interpolation(const amr::Forest& forest, int level);
 
 /// The two layers of the parents of `level` that lie against leaves, from their children on `level` + 1: one is
-/// streamed from, both are in reach of the cubic interpolation.
+/// streamed from, both are in reach of the cubic interpolation. Rows and columns as above; rims at x faces are also
+/// written as rows where the interpolation of a y or z face reads across them (concave edges of the fine region).
 TransferPlan plan_restriction(const amr::Forest& forest, int level);
+
+/// How many layers of columns each block must keep for the transfer between levels.
+std::vector<ColumnDepth> column_depths(const amr::Forest& forest);
 
 }  // namespace drogue::lbm

@@ -7,6 +7,8 @@
 
 #include <array>
 #include <cstddef>
+#include <utility>
+#include <vector>
 
 #include "amr/forest.hpp"
 #include "core/huge_array.hpp"
@@ -147,22 +149,80 @@ struct RowLayout {
     for (int m = 0; m < moments; ++m) column.m[m] = lbm::load(value[m]);
     return column;
   }
+  /// The 16 cells from `cell` along x, y or z, its component there being 0.
+  static Row<Real> load_line(const std::byte* rows, const Index3& cell, int along) {
+    const auto [x, y, z] = cell;
+    if (along == 0) return load_row(rows + (z * lanes + y) * bytes);
+    return along == 1 ? load_column(rows, x, z * lanes, 1) : load_column(rows, x, y, lanes);
+  }
+  static void store_line(std::byte* rows, const Index3& cell, int along, const Row<Real>& line) {
+    const auto [x, y, z] = cell;
+    if (along == 0) return store_row(rows + (z * lanes + y) * bytes, line);
+    along == 1 ? store_column(rows, x, z * lanes, 1, line) : store_column(rows, x, y, lanes, line);
+  }
   static void store_column(std::byte* rows, int x, int first_row, int row_stride, const Row<Real>& column) {
     for (int i = 0; i < lanes; ++i)
       for (int m = 0; m < moments; ++m) put(rows + (first_row + i * row_stride) * bytes, m, x, column.m[m][i]);
   }
+  /// Element `i` of a row to element `j` of another.
+  static void copy_element(const std::byte* from, int i, std::byte* to, int j) {
+    for (int m = 0; m < 4; ++m) macro(to, m)[j] = macro(from, m)[i];
+    for (int m = 4; m < moments; ++m) stress(to, m)[j] = stress(from, m)[i];
+  }
 };
 
-/// Moments of all blocks of a forest at one time level. Of its leaves it keeps the cells at the two x faces once more,
-/// as columns along y, [x face][z][moment][y]: a neighbour that needs them would else touch every cache line of the
-/// block, because a row lies along x. Who changes such a cell of a leaf calls refresh_columns().
+/// The last cells at both ends of the rows of a plane, to be read as columns along y.
+template <class Real>
+class RowEnds {
+ public:
+  static constexpr int depth = lanes / 2;
+
+  void put(int m, int y, Vec<Real> row) {
+    store_unaligned<Real>(end_[0][m][y % depth] + y / depth * depth, low_half<Real>(row));
+    store_unaligned<Real>(end_[1][m][y % depth] + y / depth * depth, high_half<Real>(row));
+  }
+
+  /// Columns of moment m along y: x = 0, 1, .. 7 (side 0) or 8, .. 15 (side 1).
+  std::array<Vec<Real>, depth> columns(int side, int m) const {
+    std::array<Vec<Real>, depth> v;
+    for (int i = 0; i < depth; ++i) v[i] = load<Real>(end_[side][m][i]);
+    // vector i, lane (j, k) holds row i + 8 j and cell k: exchange i and k bit by bit
+    for (int bit = depth / 2; bit > 0; bit /= 2)
+      for (int i = 0; i < depth; ++i)
+        if (!(i & bit)) exchange<Real>(v[i], v[i | bit], bit);
+    return v;
+  }
+
+ private:
+  alignas(128) Real end_[2][moments][depth][lanes];
+};
+
+/// Layers of cells at the two x faces of a block that are kept as columns.
+using ColumnDepth = std::array<int, 2>;
+inline constexpr int most_layers = 5;
+
+/// Moments of all blocks of a forest at one time level. The cells at the two x faces are kept once more, as columns
+/// along y, [x face][z][moment][y]: a neighbour that needs them would else touch every cache line of the block, because
+/// a row lies along x. Blocks that are resampled across an x face keep more layers, [x face][z][layer - 1][moment][y].
+/// Who changes such a cell of a leaf calls refresh_columns(). Of ghosts and parents the rims at the x faces exist as
+/// columns alone, unless level_transfer.hpp says otherwise.
 template <class S>
 class MomentField {
  public:
   using Layout = RowLayout<S>;
+  using Real = typename S::Real;
   static constexpr std::size_t column_bytes = 2 * amr::block_size * Layout::bytes;
+  static constexpr std::size_t inner_bytes = (most_layers - 1) * column_bytes;
 
-  explicit MomentField(int blocks) : rows_(blocks * Layout::block_bytes), columns_(blocks * column_bytes) {}
+  /// `depth`: of each block; one layer each if empty.
+  explicit MomentField(int blocks, std::vector<ColumnDepth> depth = {})
+      : rows_(blocks * Layout::block_bytes), columns_(blocks * column_bytes), depth_(std::move(depth)) {
+    depth_.resize(blocks, {1, 1});
+    inner_of_.reserve(blocks);
+    std::size_t deep = 0;
+    for (const auto& [low, high] : depth_) inner_of_.push_back(low > 1 || high > 1 ? deep++ : 0);
+    inner_ = HugeArray(deep * inner_bytes);
+  }
 
   std::byte* block(int id) { return rows_.data() + id * Layout::block_bytes; }
   const std::byte* block(int id) const { return rows_.data() + id * Layout::block_bytes; }
@@ -170,17 +230,53 @@ class MomentField {
   const std::byte* row(int id, int y, int z) const { return block(id) + (z * amr::block_size + y) * Layout::bytes; }
   std::byte* columns(int id) { return columns_.data() + id * column_bytes; }
   const std::byte* columns(int id) const { return columns_.data() + id * column_bytes; }
+  std::byte* inner_columns(int id) { return inner_.data() + inner_of_[id] * inner_bytes; }
+  const ColumnDepth& depth(int id) const { return depth_[id]; }
+
+  /// The column at (x, z); x must lie within the depth of a face.
+  std::byte* column(int id, int x, int z) { return const_cast<std::byte*>(std::as_const(*this).column(id, x, z)); }
+  const std::byte* column(int id, int x, int z) const {
+    const int side = x >= amr::block_size / 2, layer = side ? amr::block_size - 1 - x : x;
+    const int at = side * amr::block_size + z;
+    if (layer == 0) return columns(id) + at * Layout::bytes;
+    return inner_.data() + inner_of_[id] * inner_bytes + (at * (most_layers - 1) + layer - 1) * Layout::bytes;
+  }
+
+  /// Adds to density or velocity of one cell of a leaf.
+  void add(int id, const Index3& cell, int m, Real value) {
+    const auto [x, y, z] = cell;
+    Real& sum = Layout::macro(row(id, y, z), m)[x];
+    sum += value;
+    if (x < depth_[id][0] || x >= amr::block_size - depth_[id][1]) Layout::macro(column(id, x, z), m)[y] = sum;
+  }
 
   void refresh_columns(int id) {
-    for (int side = 0; side < 2; ++side)
-      for (int z = 0; z < amr::block_size; ++z) {
-        const auto column = Layout::load_column(block(id), side * (lanes - 1), z * amr::block_size, 1);
-        Layout::store_row(columns(id) + (side * amr::block_size + z) * Layout::bytes, column);
-      }
+    RowEnds<Real> ends;
+    for (int z = 0; z < amr::block_size; ++z) {
+      for (int y = 0; y < amr::block_size; ++y)
+        for (int m = 0; m < moments; ++m) ends.put(m, y, Layout::load(row(id, y, z), m));
+      for (int side = 0; side < 2; ++side)
+        for (int m = 0; m < moments; ++m) {
+          const auto columns = ends.columns(side, m);
+          for (int layer = 0; layer < depth_[id][side]; ++layer) {
+            const int i = side ? RowEnds<Real>::depth - 1 - layer : layer;
+            Layout::store(column(id, side * amr::block_size / 2 + i, z), m, columns[i]);
+          }
+        }
+    }
+  }
+
+  /// Calls f(x) for the x whose columns are kept.
+  template <class F>
+  void for_each_column(int id, const F& f) const {
+    for (int x = 0; x < depth_[id][0]; ++x) f(x);
+    for (int x = amr::block_size - depth_[id][1]; x < amr::block_size; ++x) f(x);
   }
 
  private:
-  HugeArray rows_, columns_;
+  HugeArray rows_, columns_, inner_;
+  std::vector<ColumnDepth> depth_;
+  std::vector<std::size_t> inner_of_;  // which part of inner_
 };
 
 }  // namespace drogue::lbm

@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Tensor-product resampling of a box of one block onto a box of another, the one mechanism that joins levels:
-// cubic interpolation of a coarse leaf onto the rim of a ghost, fourth-order restriction of fine leaves onto a parent.
-// Populations move at lattice speed, so a second-order mismatch of the velocity at an interface would reach the flow as
-// a first-order force (DESIGN section 3, table); hence the orders.
+// Tensor-product resampling from one level to the next, the one mechanism that joins levels: cubic interpolation of
+// coarse leaves onto the rim of a ghost, fourth-order restriction of fine leaves onto the rim of a parent. Populations
+// move at lattice speed, so a second-order mismatch of the velocity at an interface would reach the flow as a
+// first-order force (DESIGN section 3, table); hence the orders.
+//
+// A rim is a stack of layers, a layer is made of lines, a line is 16 cells whose ten moments are adjacent. Next to a y
+// or z face lines are rows; next to an x face they are columns along y, so that no face is more expensive than another.
 #pragma once
 
 #include <array>
@@ -12,34 +15,42 @@
 
 namespace drogue::lbm {
 
-/// One axis: output i in [begin, end) is the sum over k < taps of weight[i][k] * input[start[i] + k]. Inputs may lie up
-/// to two cells outside the source block.
+/// Outputs 0 .. 15 along one axis from inputs 0 .. 31, the cells of a pair of adjacent blocks: output i is the sum over
+/// k < taps of weight[i][k] * input[start[i] + k].
 struct Axis {
   static constexpr int most_taps = 5;
-  int begin, end, taps;
+  int taps;
   std::array<int, amr::block_size> start;
   std::array<std::array<double, most_taps>, amr::block_size> weight;
-
-  int outputs() const { return end - begin; }
-  int first_input() const;
-  int last_input() const;
-  int inputs() const { return last_input() + 1 - first_input(); }
 };
 
-/// Cubic interpolation onto cells [begin, end) of the ghost in octant `half` (0 low, 1 high) of a coarse block;
-/// stencils keep out of the neighbour on a side that is not `available` {low, high}.
-Axis cubic_axis(int begin, int end, int half, std::array<bool, 2> available);
+/// Cubic interpolation onto the block in octant `half` (0 low, 1 high) of a coarse one; the pair is the coarse block
+/// and its neighbour on that side, which the stencils leave alone if it is not `available`.
+Axis cubic_axis(int half, bool available);
 
-/// Fourth-order restriction of a fine block onto coarse cells [begin, end) of the eight it covers: (-1, 9, 9, -1) / 16,
-/// and (6, 11, 1, -3, 1) / 16 at the ends of the block, so that no neighbour is read; both reproduce cubics and remove
+/// Fourth-order restriction of two fine blocks onto the one that covers them: (-1, 9, 9, -1) / 16, and
+/// (6, 11, 1, -3, 1) / 16 at the ends of each of them, so that no neighbour is read; both reproduce cubics and remove
 /// the shortest wave.
-Axis restriction_axis(int begin, int end);
+Axis restriction_axis();
 
-/// A box of `target` computed from `source` and its neighbours on its level.
+/// Which of these an axis of a job uses: an interpolation has number 2 * half + available.
+inline constexpr int restriction_rule = 4;
+Axis axis_of_rule(int rule);
+
+/// Part of the rim of `target`: `layers` stacked along `normal` (0 x, 1 y, 2 z), of each the `lines` that stand side by
+/// side across(), of each the `cells` along(), all as half-open ranges.
 struct ResampleJob {
-  int source, target;
-  std::array<Axis, 3> axis;
-  std::array<int, 3> shift;  ///< added to an output index to give the cell of the target
+  struct Range {
+    int begin, end;
+  };
+  int target, normal;
+  Range layers, lines, cells;
+  std::array<int, 3> rule;    ///< normal, across, along
+  std::array<int, 8> source;  ///< pairs of blocks [normal][across][along]
+  bool also_rows = false;     ///< of columns: write the cells of the rows as well
+
+  int across() const { return normal == 2 ? 1 : 2; }
+  int along() const { return normal == 0 ? 1 : 0; }
 };
 
 /// Where a source finds its values: leaves in `leaves`, or half-way between `leaves` and `leaves_end` if that is given;
@@ -57,8 +68,34 @@ struct Conversion {
   Vec3 velocity_shift = Vec3::Zero();  ///< added to the velocity, lattice units (lbm/body_force.cpp)
 };
 
+/// Runs jobs; knows the weights.
 template <class S>
-void resample(const ResampleJob& job, const amr::Forest& forest, const SourceFields<S>& source,
-              const Conversion& conversion, MomentField<S>& target);
+class Resampler {
+ public:
+  explicit Resampler(const amr::Forest& forest);
+
+  void operator()(const ResampleJob& job, const SourceFields<S>& source, const Conversion& conversion,
+                  MomentField<S>& target) const;
+
+ private:
+  using Real = typename S::Real;
+
+  /// An axis in the precision of the state, with lane numbers for lines that are combined along themselves.
+  struct Stencil {
+    std::array<int, amr::block_size> start;
+    std::array<std::array<Real, Axis::most_taps>, amr::block_size> weight;
+    std::array<IndexVec<Real>, Axis::most_taps> lane;
+    std::array<Vec<Real>, Axis::most_taps> lane_weight;
+
+    explicit Stencil(const Axis& axis);
+  };
+
+  template <int taps, bool midway>
+  void run(const ResampleJob& job, const SourceFields<S>& source, const Conversion& conversion,
+           MomentField<S>& target) const;
+
+  const amr::Forest& forest_;
+  std::array<Stencil, 5> stencil_;  // by rule
+};
 
 }  // namespace drogue::lbm

@@ -21,11 +21,13 @@ struct Pack;
 template <>
 struct Pack<float> {
   using Type = float __attribute__((vector_size(4 * lanes)));
+  using Half = float __attribute__((vector_size(2 * lanes)));
   using Index = std::int32_t __attribute__((vector_size(4 * lanes)));
 };
 template <>
 struct Pack<double> {
   using Type = double __attribute__((vector_size(8 * lanes)));
+  using Half = double __attribute__((vector_size(4 * lanes)));
   using Index = std::int64_t __attribute__((vector_size(8 * lanes)));
 };
 template <class Real>
@@ -71,8 +73,8 @@ Vec<Real> load_unaligned(const Real* p) {
   std::memcpy(&v, p, sizeof v);
   return v;
 }
-template <class Real>
-void store_unaligned(Real* p, Vec<Real> v) {
+template <class Real, class V>
+void store_unaligned(Real* p, V v) {
   std::memcpy(p, &v, sizeof v);
 }
 
@@ -111,6 +113,35 @@ Vec<Real> shift_down(Vec<Real> v, Real last) {
   store(row, v);
   row[lanes] = last;
   return load_unaligned(row + 1);
+}
+
+template <class Real>
+using HalfVec = typename Pack<Real>::Half;
+template <class Real>
+HalfVec<Real> low_half(Vec<Real> v) {
+  return __builtin_shufflevector(v, v, 0, 1, 2, 3, 4, 5, 6, 7);
+}
+template <class Real>
+HalfVec<Real> high_half(Vec<Real> v) {
+  return __builtin_shufflevector(v, v, 8, 9, 10, 11, 12, 13, 14, 15);
+}
+
+/// Lanes of two vectors one after the other: lane i takes number `from`[i] of the 32.
+template <class Real>
+Vec<Real> pick(Vec<Real> low, Vec<Real> high, IndexVec<Real> from) {
+  return __builtin_shuffle(low, high, from);
+}
+
+template <class Real>
+constexpr IndexVec<Real> lane_numbers{0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15};
+
+/// The lanes of `a` whose number has `bit` set change places with those of `b` that have not.
+template <class Real>
+void exchange(Vec<Real>& a, Vec<Real>& b, int bit) {
+  const IndexVec<Real> lane = lane_numbers<Real>, has = (lane & bit) != 0;
+  const Vec<Real> first = pick<Real>(a, b, has ? (lane ^ bit) + lanes : lane);
+  b = pick<Real>(a, b, has ? lane + lanes : (lane ^ bit));
+  a = first;
 }
 
 /// Past the caches: the data will not be read again before it has been evicted.

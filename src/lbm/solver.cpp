@@ -37,7 +37,9 @@ BasicSolver<S>::BasicSolver(amr::Forest forest, fluid::Specification specificati
     : forest_(std::move(forest)),
       specification_(std::move(specification)),
       units_(units_of(specification_)),
-      field_{MomentField<S>(forest_.size()), MomentField<S>(forest_.size())},
+      field_{MomentField<S>(forest_.size(), column_depths(forest_)),
+             MomentField<S>(forest_.size(), column_depths(forest_))},
+      resample_(forest_),
       fill_boundary_(forest_, specification_, units_),
       forced_(is_forced(specification_)),
       force_(forest_),
@@ -51,7 +53,10 @@ BasicSolver<S>::BasicSolver(amr::Forest forest, fluid::Specification specificati
     l.relaxation = {relaxation_time(specification_.viscosity * l.dt / (dx * dx)), specification_.hrr_sigma,
                     eddy_factor(specification_)};
     if (level > 0) l.from_coarser = plan_interpolation(forest_, level);
-    if (level < forest_.finest()) l.to_parents = plan_restriction(forest_, level);
+    if (level < forest_.finest()) {
+      l.to_parents = plan_restriction(forest_, level);
+      reflux_.emplace_back(forest_, specification_, level);
+    }
     if (forced_) l.lead = half_kick(level, 0.0);
     build_sponge(level);
   }
@@ -68,7 +73,9 @@ template <class S>
 void BasicSolver<S>::advance(int level, fluid::FineStepHook* hook) {
   Level& l = levels_[level];
   fill_boundary_(level, l.time, field_[l.now]);
+  if (level > 0) reflux_[level - 1].count_fine_step(field_[l.now], l.relaxation);
   stream_and_collide(level);
+  fill_boundary_.balance(level, 1.0 - 1.0 / l.relaxation.tau, field_[l.now], field_[1 - l.now]);
   if (forced_) accelerate(level);
   apply_sponge(level);
   if (level == forest_.finest()) {
@@ -79,6 +86,7 @@ void BasicSolver<S>::advance(int level, fluid::FineStepHook* hook) {
       advance(level + 1, hook);
       restrict_to_parents(level, 1 - l.now);
     }
+    reflux_[level].settle(field_[l.now], l.relaxation, field_[1 - l.now]);
   }
   l.now = 1 - l.now;
   l.time += l.dt;
@@ -112,10 +120,13 @@ BlockNeighbourhood<S> BasicSolver<S>::neighbourhood(int block, int from) {
   for (int slot = 0; slot < 27; ++slot) {
     const int id = forest_.block(block).neighbour[slot];
     blocks.source[slot] = field_[from].block(id);
-    blocks.columns[slot] = forest_.block(id).kind == amr::Kind::leaf ? field_[from].columns(id) : nullptr;
+    blocks.columns[slot] = forest_.block(id).kind == amr::Kind::boundary ? nullptr : field_[from].columns(id);
   }
-  blocks.target = field_[1 - from].block(block);
-  blocks.target_columns = field_[1 - from].columns(block);
+  MomentField<S>& target = field_[1 - from];
+  blocks.target = target.block(block);
+  blocks.target_columns = target.columns(block);
+  blocks.depth = target.depth(block);
+  if (blocks.depth != ColumnDepth{1, 1}) blocks.target_inner = target.inner_columns(block);
   return blocks;
 }
 
@@ -150,7 +161,7 @@ void BasicSolver<S>::interpolate_rims(int level, bool midway) {
 #pragma omp parallel for schedule(dynamic, 4)
   for (int i = 0; i < targets; ++i)
     for (int j = fine.from_coarser.first[i]; j < fine.from_coarser.first[i + 1]; ++j)
-      resample(fine.from_coarser.job[j], forest_, source, to_fine, field_[fine.now]);
+      resample_(fine.from_coarser.job[j], source, to_fine, field_[fine.now]);
 }
 
 template <class S>
@@ -163,13 +174,17 @@ void BasicSolver<S>::restrict_to_parents(int level, int field) {
 #pragma omp parallel for schedule(dynamic, 1)
   for (int i = 0; i < targets; ++i)
     for (int j = coarse.to_parents.first[i]; j < coarse.to_parents.first[i + 1]; ++j)
-      resample(coarse.to_parents.job[j], forest_, source, to_coarse, field_[field]);
+      resample_(coarse.to_parents.job[j], source, to_coarse, field_[field]);
 }
 
-/// Pneq = -2 rho c_s^2 tau S dt: per step of each level, so it scales with tau dt.
+/// Pneq = -2 rho c_s^2 tau S dt: per step of each level, so it scales with tau dt. Levels meet at the time of the
+/// finer.
 template <class S>
 Conversion BasicSolver<S>::conversion(int from, int to) const {
-  return {tau(to) * levels_[to].dt / (tau(from) * levels_[from].dt), levels_[to].lead - levels_[from].lead};
+  Conversion result{tau(to) * levels_[to].dt / (tau(from) * levels_[from].dt)};
+  const double time = levels_[std::max(from, to)].time;
+  if (forced_) result.velocity_shift = half_kick(to, time) - half_kick(from, time);
+  return result;
 }
 
 template <class S>
@@ -310,6 +325,8 @@ void BasicSolver<S>::transfer_state(Archive& archive) {
     for (int id = leaves.begin; id < leaves.end; ++id) field.refresh_columns(id);
     if (forced_) l.lead = half_kick(level, l.time);
   }
+  for (int level = forest_.finest() - 1; level >= 0; --level) restrict_to_parents(level, levels_[level].now);
+  archive.transfer("boundaries", fill_boundary_);
   archive.transfer("cell_updates", statistics_.cell_updates);
   archive.transfer("max_mach", statistics_.max_mach);
   archive.transfer("max_speed", statistics_.max_speed);

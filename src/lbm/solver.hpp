@@ -15,6 +15,7 @@
 #include "lbm/boundary.hpp"
 #include "lbm/fine_velocity.hpp"
 #include "lbm/level_transfer.hpp"
+#include "lbm/reflux.hpp"
 #include "lbm/resample.hpp"
 #include "lbm/stream_collide.hpp"
 
@@ -84,8 +85,10 @@ class BasicSolver : public fluid::FluidSolver {
   Units units_;
   std::vector<Level> levels_;
   std::array<MomentField<S>, 2> field_;
+  Resampler<S> resample_;
   BoundaryFill<S> fill_boundary_;
   bool forced_;  // by a body force
+  std::vector<Reflux<S>> reflux_;  // by the coarser level of an interface
   fluid::ForceField force_;
   mutable FineVelocity<S> fine_velocity_;  // a cache
   BlockUpdate<S> update_;

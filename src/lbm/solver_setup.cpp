@@ -48,6 +48,7 @@ void BasicSolver<S>::initialise() {
     }
   }
   for (int level = forest_.finest() - 1; level >= 0; --level) restrict_to_parents(level, levels_[level].now);
+  for (int level = 0; level < forest_.levels(); ++level) fill_boundary_.start(level, field_[levels_[level].now]);
 }
 
 template <class S>
@@ -77,7 +78,7 @@ void BasicSolver<S>::build_sponge(int level) {
   Level& l = levels_[level];
   const auto leaves = forest_.range(level, amr::Kind::leaf);
   const Box& domain = forest_.domain().box;
-  const double sound_speed = units_.velocity / std::sqrt(3.0);
+  const double wave_speed = sound_speed * units_.velocity;
   for (int id = leaves.begin; id < leaves.end; ++id) {
     SpongeBlock sponge{id, {}};
     for (int i = 0; i < amr::block_cells; ++i) {
@@ -88,7 +89,7 @@ void BasicSolver<S>::build_sponge(int level) {
         const int axis = f / 2;
         const double depth = face.sponge - (f & 1 ? domain.upper[axis] - x[axis] : x[axis] - domain.lower[axis]);
         if (face.sponge <= 0.0 || depth <= 0.0) continue;
-        const double rate = 9.0 * sound_speed / face.sponge * std::pow(depth / face.sponge, 2);
+        const double rate = 9.0 * wave_speed / face.sponge * std::pow(depth / face.sponge, 2);
         const auto damping = static_cast<Real>(1.0 - std::exp(-rate * l.dt));
         if (damping <= s.damping) continue;
         s.damping = damping;

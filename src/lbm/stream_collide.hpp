@@ -34,8 +34,10 @@ struct BlockRecord {
 template <class S>
 struct BlockNeighbourhood {
   std::array<const std::byte*, 27> source;   ///< by amr::neighbour_slot; the rims that face the block must be filled
-  std::array<const std::byte*, 27> columns;  ///< MomentField::columns of those that are leaves, else null
+  std::array<const std::byte*, 27> columns;  ///< MomentField::columns of them, or null: then rows are read
   std::byte *target, *target_columns;
+  std::byte* target_inner = nullptr;  ///< MomentField::inner_columns, or null if none are kept
+  ColumnDepth depth{1, 1};
   const BlockNeighbourhood* next = nullptr;  ///< the block after this one, whose rows are prefetched meanwhile
 };
 

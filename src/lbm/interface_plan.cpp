@@ -1,0 +1,211 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "lbm/interface_plan.hpp"
+
+#include <algorithm>
+#include <cstdlib>
+#include <map>
+#include <optional>
+
+namespace drogue::lbm {
+namespace {
+
+constexpr int n = amr::block_size;
+
+Index3 operator+(const Index3& a, const Index3& b) { return {a[0] + b[0], a[1] + b[1], a[2] + b[2]}; }
+
+Index3 unit(int axis, int sign) {
+  Index3 offset{0, 0, 0};
+  offset[axis] = sign;
+  return offset;
+}
+
+enum class Side { inner, outer, wall, other };  // a wall is one without slip
+
+/// A cell, by block.
+struct Place {
+  int block;
+  Index3 cell;
+};
+
+/// One level of the interface.
+class InterfaceLevel {
+ public:
+  InterfaceLevel(const amr::Forest& forest, const fluid::Specification& specification, int level, amr::Kind inner,
+                 amr::Kind outer)
+      : forest_(forest), specification_(specification), level_(level), inner_(inner), outer_(outer) {}
+
+  int beside(int id, const Index3& offset) const {
+    return id == amr::none ? id : forest_.block(id).neighbour[amr::neighbour_slot(offset[0], offset[1], offset[2])];
+  }
+
+  Side side(int id) const {
+    if (id == amr::none) return Side::other;
+    const amr::Kind kind = forest_.block(id).kind;
+    if (kind == inner_) return Side::inner;
+    if (kind == outer_) return Side::outer;
+    return kind == amr::Kind::boundary && beyond_walls_only(id) ? Side::wall : Side::other;
+  }
+
+  InterfaceFace face(int inner, int face) const {
+    const int axis = face / 2;
+    const int outer = beside(inner, unit(axis, face & 1 ? 1 : -1));
+    InterfaceFace result{inner, outer, face, {}};
+    for (int e = 0; e < 4; ++e) {
+      const Index3 along = unit(e < 2 ? lane_axis(axis) : row_axis(axis), e & 1 ? 1 : -1);
+      const int next = beside(inner, along);
+      if (side(next) == Side::inner && side(beside(outer, along)) == Side::outer)
+        result.end[e] = End::flat;
+      else
+        result.end[e] = next != amr::none && forest_.block(next).kind == amr::Kind::boundary && is_open(next)
+                            ? End::open
+                            : End::closed;
+    }
+    return result;
+  }
+
+  /// Weight of the population along `c` = f + g of the line of cells in `block` at the edge it crosses, in the mass of
+  /// the inner side. Sums over faces count it once for each face of the interface it leaves through; it counts if it
+  /// arrives. A population that comes from an image in a wall arrives on one side of the interface but was
+  /// balanced on the other.
+  int weight(int block, const Index3& f, const Index3& g) const {
+    const int to = beside(block, f + g), at_f = beside(block, f), at_g = beside(block, g);
+    const auto misses = [&](Side s) { return (side(to) == s) - (side(at_f) == s) - (side(at_g) == s); };
+    for (const int id : {to, at_f, at_g})
+      if (id == amr::none || (forest_.block(id).kind == amr::Kind::boundary && side(id) != Side::wall)) return 0;
+    if (side(block) == Side::inner) return -misses(Side::outer);
+    if (side(block) == Side::outer) return misses(Side::inner);
+    if (side(block) != Side::wall) return 0;
+    const int image_of = side(at_f) == Side::wall ? at_g : at_f;
+    const auto is_fluid = [&](int id) { return side(id) == Side::inner || side(id) == Side::outer; };
+    if (!is_fluid(to) || !is_fluid(image_of)) return 0;
+    return (side(to) == Side::inner) - (side(image_of) == Side::inner);
+  }
+
+  /// Of the four cells around the edge that a population from `from` along f + g crosses, those of the inner side with
+  /// a face on the interface.
+  std::vector<Place> inner_cells(const Place& from, const Index3& f, const Index3& g) const {
+    const std::array<Place, 4> around{from, step(from, f), step(from, f + g), step(from, g)};
+    std::vector<Place> cells;
+    for (int i = 0; i < 4; ++i)
+      if (side(around[i].block) == Side::inner &&
+          (side(around[(i + 1) % 4].block) == Side::outer || side(around[(i + 3) % 4].block) == Side::outer))
+        cells.push_back(around[i]);
+    return cells;
+  }
+
+ private:
+  bool is_open(int boundary) const {
+    return for_faces_beyond(
+        boundary, [](fluid::Boundary b) { return b == fluid::Boundary::velocity || b == fluid::Boundary::outlet; });
+  }
+  bool beyond_walls_only(int boundary) const {
+    return !for_faces_beyond(boundary, [](fluid::Boundary b) { return b != fluid::Boundary::no_slip; });
+  }
+  template <class Predicate>
+  bool for_faces_beyond(int boundary, Predicate any) const {
+    const Index3 across = forest_.blocks_across(level_), &index = forest_.block(boundary).index;
+    for (int a = 0; a < 3; ++a)
+      if ((index[a] < 0 || index[a] >= across[a]) && any(specification_.face[2 * a + (index[a] >= 0)].type))
+        return true;
+    return false;
+  }
+
+  Place step(const Place& from, const Index3& offset) const {
+    Index3 cell = from.cell + offset, block{0, 0, 0};
+    for (int a = 0; a < 3; ++a) {
+      block[a] = (cell[a] >= n) - (cell[a] < 0);
+      cell[a] &= n - 1;
+    }
+    return {beside(from.block, block), cell};
+  }
+
+  const amr::Forest& forest_;
+  const fluid::Specification& specification_;
+  const int level_;
+  const amr::Kind inner_, outer_;
+};
+
+/// Calls `use(block, f, g, along)` for every block of a level and pair of directions across one of its edges.
+template <class Use>
+void for_edges(const amr::Forest& forest, int level, Use use) {
+  const auto all = forest.range(level);
+  for (int id = all.begin; id < all.end; ++id)
+    for (int along = 0; along < 3; ++along)
+      for (int signs = 0; signs < 4; ++signs)
+        use(id, unit((along + 1) % 3, signs & 1 ? 1 : -1), unit((along + 2) % 3, signs & 2 ? 1 : -1), along);
+}
+
+/// First cell of the line of a block along the edge towards f + g.
+Index3 edge_line(const Index3& f, const Index3& g) {
+  Index3 first{0, 0, 0};
+  for (int a = 0; a < 3; ++a)
+    if (f[a] + g[a] > 0) first[a] = n - 1;
+  return first;
+}
+
+class Hosts {
+ public:
+  Host& at(int leaf) {
+    const auto [place, is_new] = index_.emplace(leaf, static_cast<int>(hosts.size()));
+    if (is_new) hosts.push_back({leaf, {}, {}});
+    return hosts[place->second];
+  }
+  Host::Line& line(int leaf, Index3 first, int along) {
+    first[along] = 0;
+    auto& lines = at(leaf).lines;
+    const auto found = std::ranges::find_if(lines, [&](const auto& l) { return l.first == first && l.along == along; });
+    return found != lines.end() ? *found : lines.emplace_back(Host::Line{first, along, {}, {}});
+  }
+  std::vector<Host> hosts;
+
+ private:
+  std::map<int, int> index_;
+};
+
+}  // namespace
+
+std::vector<Host> plan_interface(const amr::Forest& forest, const fluid::Specification& specification, int coarse) {
+  const InterfaceLevel above(forest, specification, coarse, amr::Kind::leaf, amr::Kind::parent);
+  const InterfaceLevel below(forest, specification, coarse + 1, amr::Kind::ghost, amr::Kind::leaf);
+  Hosts hosts;
+  const auto leaves = forest.range(coarse, amr::Kind::leaf);
+  for (int id = leaves.begin; id < leaves.end; ++id)
+    for (int f = 0; f < 6; ++f) {
+      const int axis = f / 2;
+      if (above.side(above.beside(id, unit(axis, f & 1 ? 1 : -1))) != Side::outer) continue;
+      Host::Face face{above.face(id, f), {}};
+      for (int quarter = 0; quarter < 4; ++quarter) {
+        Index3 ghost = forest.block(id).index;
+        for (int a = 0; a < 3; ++a) ghost[a] *= 2;
+        ghost[axis] += f & 1;
+        ghost[lane_axis(axis)] += quarter & 1;
+        ghost[row_axis(axis)] += quarter >> 1;
+        face.fine[quarter] = below.face(forest.find(coarse + 1, ghost), f);
+      }
+      hosts.at(id).faces.push_back(face);
+    }
+  for_edges(forest, coarse, [&](int id, const Index3& f, const Index3& g, int along) {
+    const int weight = above.weight(id, f, g);
+    if (weight == 0) return;
+    const Index3 first = edge_line(f, g);
+    const auto cells = above.inner_cells({id, first}, f, g);
+    for (const Place& p : cells)
+      hosts.line(p.block, p.cell, along).coarse.push_back({id, first, f + g, double(weight) / cells.size(), 0});
+  });
+  for_edges(forest, coarse + 1, [&](int id, const Index3& f, const Index3& g, int along) {
+    const int weight = below.weight(id, f, g);
+    if (weight == 0) return;
+    const Index3 first = edge_line(f, g);
+    const auto cells = below.inner_cells({id, first}, f, g);
+    for (const Place& p : cells) {
+      const amr::Block& ghost = forest.block(p.block);
+      Index3 cell;
+      for (int a = 0; a < 3; ++a) cell[a] = ((ghost.index[a] & 1) * n + p.cell[a]) / 2;
+      hosts.line(ghost.parent, cell, along)
+          .fine.push_back({id, first, f + g, double(weight) / cells.size(), ghost.index[along] & 1});
+    }
+  });
+  return hosts.hosts;
+}
+
+}  // namespace drogue::lbm

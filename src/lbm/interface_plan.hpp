@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Where the cells of two levels meet, for counting the mass that crosses (lbm/reflux.hpp). A coarse leaf with fine
+// leaves beyond one of its faces, edges or corners is a host: it holds ghosts of the fine level and has parents beside
+// it. On either level, one side of the interface is the `inner` one, that of the hosts (coarse leaves, and the ghosts
+// in them), the other the `outer` one (parents, and the fine leaves they stand for).
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "amr/forest.hpp"
+#include "fluid/specification.hpp"
+
+namespace drogue::lbm {
+
+/// How a block face of the interface goes on beyond one of its four ends.
+enum class End {
+  flat,    ///< in the same plane, as a face of the next block
+  closed,  ///< round an edge, or it ends at a wall
+  open,    ///< it ends at an open boundary
+};
+
+/// Two blocks of one level, inner and outer, with a face of the interface between them.
+struct InterfaceFace {
+  int inner, outer;
+  int face;                ///< 0 to 5, of the inner block
+  std::array<End, 4> end;  ///< low and high end along the lanes, then along the rows
+};
+
+/// A line of 16 cells whose populations of one diagonal direction add to the mass of the inner side with this weight,
+/// because they do not go the way that the sums over faces count.
+struct DiagonalTerm {
+  int block;
+  Index3 first, direction;
+  double weight;
+  int half;  ///< of the host's line that a fine line lies beside
+};
+
+struct Host {
+  struct Face {
+    InterfaceFace coarse;
+    std::array<InterfaceFace, 4> fine;  ///< lanes fastest
+  };
+  struct Line {  ///< of 16 cells of the host, from `first` along an axis
+    Index3 first;
+    int along;
+    std::vector<DiagonalTerm> coarse, fine;
+  };
+  int leaf;
+  std::vector<Face> faces;
+  std::vector<Line> lines;
+};
+
+/// Axes of the lanes and the rows of a face that is normal to `axis`.
+constexpr int lane_axis(int axis) { return axis == 0 ? 1 : 0; }
+constexpr int row_axis(int axis) { return axis == 2 ? 1 : 2; }
+
+/// The interface between `coarse` and `coarse` + 1, by host.
+std::vector<Host> plan_interface(const amr::Forest& forest, const fluid::Specification& specification, int coarse);
+
+}  // namespace drogue::lbm

@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Mass across the interface of two levels. The transfer between levels matches the field, to fourth order; what the
+// coarse grid lets through the interface then differs a little from what the fine grid receives. As Berger & Colella
+// (J. Comput. Phys. 82 (1989) 64) do with fluxes, the fine side is taken to be right, and the coarse cells beside the
+// interface get the difference at the end of the coarse step, as density at unchanged velocity. Mass then changes by
+// rounding alone, and is exchanged between neighbours only.
+//
+// The mass that a step carries through a face needs no populations. Those with c_n = 1 add up to
+// (Pi_nn + rho u_n) / 2, with Pi_ab = rho c_s^2 delta_ab + rho u_a u_b + (1 - 1/tau) Pneq_ab, so between cells a and b
+//   J_n = (rho u_n(a) + rho u_n(b)) / 2 + (Pi_nn(a) - Pi_nn(b)) / 2 - d/dt (Pi_nt(a) + Pi_nt(b)) / 4,
+// the flux rho u_n in the middle of the step. The last term, differences along the face in its two directions t, stands
+// for diagonal populations that cross to a neighbour; it adds up to nothing over a flat interface. Where the
+// interface has an edge or meets a no-slip wall, diagonal populations go other ways, and are counted one by one.
+#pragma once
+
+#include "lbm/interface_plan.hpp"
+#include "lbm/moments.hpp"
+#include "lbm/stream_collide.hpp"
+
+namespace drogue::lbm {
+
+template <class S>
+class Reflux {
+ public:
+  /// For the interface between `coarse` and `coarse` + 1.
+  Reflux(const amr::Forest& forest, const fluid::Specification& specification, int coarse);
+
+  /// Counts what the fine step from `field`, its rims and boundary blocks filled, carries across.
+  void count_fine_step(const MomentField<S>& field, const Relaxation& relaxation);
+  /// Gives the coarse leaves of `end` what the fine steps have carried across and the coarse step from `start` has not,
+  /// and counts anew.
+  void settle(const MomentField<S>& start, const Relaxation& relaxation, MomentField<S>& end);
+
+ private:
+  using Real = typename S::Real;
+  using Sheet = std::array<Vec<Real>, amr::block_size>;  // of cells of the host at a face, [row][lane]
+  struct Entered {                                       // mass in rho of a coarse cell
+    std::vector<Sheet> face;
+    std::vector<Vec<Real>> line;
+  };
+
+  void add_sheet(const MomentField<S>& field, const InterfaceFace& face, Real keep, Sheet& sheet) const;
+  Vec<Real> entering(const MomentField<S>& field, const DiagonalTerm& term, int along, Real keep) const;
+
+  const amr::Forest& forest_;
+  const bool third_order_;
+  const std::vector<Host> hosts_;
+  std::vector<Entered> entered_;  // by host
+};
+
+}  // namespace drogue::lbm
