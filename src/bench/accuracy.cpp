@@ -163,8 +163,9 @@ io::Plot plot_of(const Study& study, const std::vector<Point>& points) {
       study.title, {"time stepping [s]", io::Scale::logarithmic}, {study.error_label, io::Scale::logarithmic}};
   int colour = 0;
   for (const char* op : {"bgk", "rr", "hrr"}) {
+    int mark = 0;
     for (const double u : study.lattice_velocities) {
-      io::Curve curve{fmt::format("{}, {}", op, number(u)), {}, {}, io::Style::line_and_points, colour};
+      io::Curve curve{fmt::format("{}, {}", op, number(u)), {}, {}, io::Style::line_and_points, mark++, colour};
       for (const Point& point : points) {
         if (point.family != curve.label) continue;
         curve.x.push_back(point.seconds);
@@ -175,14 +176,14 @@ io::Plot plot_of(const Study& study, const std::vector<Point>& points) {
     ++colour;
   }
   constexpr int grey = 7;
-  io::Curve front{"Pareto front", {}, {}, io::Style::dashed, grey};
+  io::Curve front{"Pareto front", {}, {}, io::Style::dashed, {}, grey};
   for (const int i : pareto_front(points)) {
     front.x.push_back(points[i].seconds);
     front.y.push_back(points[i].error);
   }
   plot.curves.push_back(front);
   if (const auto best = cheapest_within(points, study.target)) {
-    plot.curves.push_back({"recommended", {points[*best].seconds}, {points[*best].error}, io::Style::ring, grey});
+    plot.curves.push_back({"recommended", {points[*best].seconds}, {points[*best].error}, io::Style::ring, {}, grey});
   }
   return plot;
 }

@@ -147,7 +147,7 @@ io::Curve curve_of(const ResultTable& table, const std::string& op, const std::s
 /// What `floor` of each number of threads would allow.
 io::Curve bound_of(const Floors& floors, const std::string& label, double Floor::*floor, double per_update,
                    int colour) {
-  io::Curve curve{label, {}, {}, io::Style::dashed, colour};
+  io::Curve curve{label, {}, {}, io::Style::dashed, {}, colour};
   for (const auto& [threads, best] : floors) {
     curve.x.push_back(threads);
     curve.y.push_back(1e3 * best.*floor / per_update);

@@ -80,10 +80,10 @@ Map flow_map(const std::string& name, const std::string& title, Bound bound, boo
 }
 
 Side inlet_events() {
-  const auto event = [](const std::string& label, const std::string& speed) {
-    return Value{label, {fmt::format("domain.x_min.velocity=[\"t < 1 ? 1 : {}\", 0, 0]", speed)}};
+  const auto event = [](const std::string& speed) {
+    return Value{speed, {fmt::format("domain.x_min.velocity=[\"t < 1 ? 1 : {}\", 0, 0]", speed)}};
   };
-  return {"event", "inlet after 1 s [m/s]", {event("-1", "-1"), event("0", "0"), event("2", "2"), event("4", "4")}};
+  return {"event", "inlet after 1 s [m/s]", {event("-1"), event("0"), event("2"), event("3")}};
 }
 
 Map sheet_map(const std::string& name, const std::string& title, const Side& rows, const Side& mass, int row,

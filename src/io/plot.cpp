@@ -75,7 +75,7 @@ std::string axis(char name, const Axis& axis, std::array<double, 2> span) {
   if (axis.scale != Scale::logarithmic) {
     text += fmt::format("unset logscale {0}\nset format {0} '%g'\n", name);
   } else {
-    const bool decades = span[1] >= 1e3 * span[0];
+    const bool decades = span[1] >= 30.0 * span[0];
     text += fmt::format("set logscale {0}\nset format {0} '{1}'\n", name, decades ? "10^{{%L}}" : "%g");
   }
   return text;
@@ -106,7 +106,8 @@ std::string data_block(const std::string& name, const Curve& curve) {
 std::string with_style(const Curve& curve, int place) {
   const int colour = curve.colour.value_or(place);
   const auto line = fmt::format("linecolor rgb '{}' linewidth 2", palette[colour % palette.size()]);
-  const auto marks = fmt::format("pointtype {} pointsize 1.3", std::array{7, 5, 9, 11, 13, 15}[place % 6]);
+  const auto marks =
+      fmt::format("pointtype {} pointsize 1.3", std::array{7, 5, 9, 11, 13, 15}[curve.mark.value_or(place) % 6]);
   switch (curve.style) {
     case Style::line:
       return "lines " + line;

@@ -25,6 +25,7 @@ struct Curve {
   std::string label;                   ///< without one it is not in the legend
   std::vector<double> x = {}, y = {};  ///< a value that is not finite is a gap
   Style style = Style::line;
+  std::optional<int> mark = {};    ///< which symbol its points have; if not given, that of its place in the plot
   std::optional<int> colour = {};  ///< of the palette; if not given, that of its place in the plot
 };
 
