@@ -261,6 +261,13 @@ class MomentField {
     }
   }
 
+  /// The same where only the velocity of one row has changed.
+  void velocity_to_columns(int id, int y, int z) {
+    for_each_column(id, [&](int x) {
+      for (const Moment m : {ux, uy, uz}) Layout::macro(column(id, x, z), m)[y] = Layout::macro(row(id, y, z), m)[x];
+    });
+  }
+
   /// Calls f(x) for the x whose columns are kept.
   template <class F>
   void for_each_column(int id, const F& f) const {
