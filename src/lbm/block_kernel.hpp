@@ -27,7 +27,9 @@ class BlockKernel {
       : blocks_(blocks),
         tau_(static_cast<Real>(relaxation.tau)),
         keep_(static_cast<Real>(1.0 - 1.0 / relaxation.tau)),
+        per_keep_(Real(1) / keep_),
         sigma_(static_cast<Real>(relaxation.sigma)),
+        strain_factor_((sigma_ - Real(1)) / 3),
         eddy_factor_(static_cast<Real>(relaxation.eddy_factor)) {}
 
   BlockRecord run() {
@@ -212,39 +214,44 @@ class BlockKernel {
   };
 
   [[gnu::flatten]] void target_row(int y, int z) {
+    const Hybrid hybrid = collision == fluid::Collision::hrr ? hybrid_at(y, z) : Hybrid{};
     Row<Real> r;
     r.m = moments_of<V>(Streamed{slot<0>(y, z), slot<1>(y, z), slot<-1>(y, z)});
     watch(r);
-    if constexpr (collision == fluid::Collision::hrr) regularise(r, y, z);
+    if constexpr (collision == fluid::Collision::hrr) hybrid.apply(r);
     Layout::store_row_streaming(blocks_.target + (z * n + y) * Layout::bytes, r);
     publish(r, y, z);
   }
 
-  /// Hybrid term, from central differences of the velocity one step ago (its rim is there, a wider one is not needed).
-  /// An eddy viscosity acts through the stress that is stored, scaled so that the relaxation time of the level turns it
-  /// into the one after a collision with tau + 3 nu_t: (1 - 1/tau) P' = (1 - 1/tau_t) P.
-  void regularise(Row<Real>& r, int y, int z) const {
-    const Gradient<V> d = twice_gradient(y, z);
-    const V rho = Real(1) + r.m[drho];
-    if constexpr (eddy == fluid::EddyViscosity::none) {
-      blend_strain(r, d, sigma_, ((sigma_ - Real(1)) * tau_ / 3) * rho);
-    } else {
-      const V tau = tau_ + Real(1.5) * eddy_viscosity<eddy, V>(d, eddy_factor_);
-      const V scale = (Real(1) - Real(1) / tau) / keep_;
-      blend_strain(r, d, scale * sigma_, ((sigma_ - Real(1)) / 3) * scale * tau * rho);
-    }
-  }
+  /// The hybrid term: Pneq <- kept Pneq + rho estimate.
+  struct Hybrid {
+    V kept;
+    std::array<V, 6> estimate;  // in the order of the moments
 
-  /// Pneq <- kept Pneq + factor 2 S
-  template <class K>
-  static void blend_strain(Row<Real>& r, const Gradient<V>& d, const K& kept, const V& factor) {
+    void apply(Row<Real>& r) const {
+      const V rho = Real(1) + r.m[drho];
+      for (int i = 0; i < 6; ++i) r.m[pxx + i] = kept * r.m[pxx + i] + rho * estimate[i];
+    }
+  };
+
+  /// The estimate is factor 2 S, from central differences of the velocity one step ago (its rim is there, a wider one
+  /// is not needed). An eddy viscosity acts through the stress that is stored, scaled so that the relaxation time of
+  /// the level turns it into the one after a collision with tau + 3 nu_t: (1 - 1/tau) P' = (1 - 1/tau_t) P. All this
+  /// comes before the row itself is collected: it is a long chain of operations, which the processor overlaps with the
+  /// sums.
+  Hybrid hybrid_at(int y, int z) const {
+    const Gradient<V> d = twice_gradient(y, z);
+    V kept = broadcast(sigma_), factor = broadcast(strain_factor_ * tau_);
+    if constexpr (eddy != fluid::EddyViscosity::none) {
+      const V tau = tau_ + Real(1.5) * eddy_viscosity<eddy, V>(d, eddy_factor_);
+      const V scale = per_keep_ - per_keep_ * reciprocal(tau);
+      kept = sigma_ * scale;
+      factor = strain_factor_ * (scale * tau);
+    }
     const V shear = Real(0.5) * factor;
-    r.m[pxx] = kept * r.m[pxx] + factor * d[0][0];
-    r.m[pyy] = kept * r.m[pyy] + factor * d[1][1];
-    r.m[pzz] = kept * r.m[pzz] + factor * d[2][2];
-    r.m[pxy] = kept * r.m[pxy] + shear * (d[0][1] + d[1][0]);
-    r.m[pxz] = kept * r.m[pxz] + shear * (d[0][2] + d[2][0]);
-    r.m[pyz] = kept * r.m[pyz] + shear * (d[1][2] + d[2][1]);
+    return {kept,
+            {factor * d[0][0], factor * d[1][1], factor * d[2][2], shear * (d[0][1] + d[1][0]),
+             shear * (d[0][2] + d[2][0]), shear * (d[1][2] + d[2][1])}};
   }
 
   Gradient<V> twice_gradient(int y, int z) const {
@@ -311,7 +318,7 @@ class BlockKernel {
   }
 
   const BlockNeighbourhood<S>& blocks_;
-  const Real tau_, keep_, sigma_, eddy_factor_;
+  const Real tau_, keep_, per_keep_, sigma_, strain_factor_, eddy_factor_;
   V max_speed_{};
   IndexVec<Real> in_bounds_ = IndexVec<Real>{} - 1;
   alignas(sizeof(V)) Real edge_[2][2][lanes];             // [x side][y side][z]

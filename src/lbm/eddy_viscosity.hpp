@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Eddy viscosities of large-eddy simulation from the gradient g[a][b] = du_b/dx_a, in cells^2 per step with the cell as
 // filter width, on anything that behaves like a float. Called for one model at compile time, so that a scene without
-// one does not pay for any.
-//   Smagorinsky   C^2 |S|                                  Mon. Weather Rev. 91 (1963) 99
-//   Vreman        C sqrt(B_beta / (g : g)), C = 2.5 Cs^2    Phys. Fluids 16 (2004) 3670; zero in shear flow and at
-//   walls WALE          C^2 (Sd:Sd)^1.5 / ((S:S)^2.5 + (Sd:Sd)^1.25)   Nicoud & Ducros, Flow Turbul. Combust. 62 (1999)
-//   183
+// one does not pay for any. Roots and quotients are taken to four digits: the constants are not known better.
+//   Smagorinsky  C^2 |S|                                              Mon. Weather Rev. 91 (1963) 99
+//   Vreman       C sqrt(B_beta / (g : g)), C = 2.5 Cs^2               Phys. Fluids 16 (2004) 3670
+//   WALE         C^2 (Sd:Sd)^1.5 / ((S:S)^2.5 + (Sd:Sd)^1.25)         Flow Turbul. Combust. 62 (1999) 183
+// The last two vanish in plane shear flow and at walls.
 #pragma once
 
 #include <array>
@@ -38,7 +38,8 @@ T vreman(const Gradient<T>& g, Scalar<T> factor) {
   const T invariant = (beta[0][0] * beta[1][1] - beta[0][1] * beta[0][1]) +
                       (beta[0][0] * beta[2][2] - beta[0][2] * beta[0][2]) +
                       (beta[1][1] * beta[2][2] - beta[1][2] * beta[1][2]);
-  return factor * square_root(maximum(invariant, T{}) / (norm + Scalar<T>(smallest_gradient_squared)));
+  return factor *
+         rough_square_root(maximum(invariant, T{}) * rough_reciprocal(norm + Scalar<T>(smallest_gradient_squared)));
 }
 
 template <class T>
@@ -54,9 +55,10 @@ T wale(const Gradient<T>& g, Scalar<T> factor) {
       if (i == j) s -= (Scalar<T>(1) / 3) * trace;
       traceless += s * s;
     }
-  const T strain = strain_squared(g), root = square_root(traceless);
-  return factor * traceless * root /
-         (strain * strain * square_root(strain) + traceless * square_root(root) + Scalar<T>(smallest_gradient_squared));
+  const T strain = strain_squared(g), root = rough_square_root(traceless);
+  return factor * traceless * root *
+         rough_reciprocal(strain * strain * rough_square_root(strain) + traceless * rough_square_root(root) +
+                          Scalar<T>(smallest_gradient_squared));
 }
 
 /// `factor`: C of Vreman's model, the square of the constant of the others.
@@ -64,7 +66,7 @@ template <fluid::EddyViscosity model, class T>
 T eddy_viscosity(const Gradient<T>& g, Scalar<T> factor) {
   if constexpr (model == fluid::EddyViscosity::vreman) return vreman(g, factor);
   if constexpr (model == fluid::EddyViscosity::wale) return wale(g, factor);
-  return factor * square_root(Scalar<T>(2) * strain_squared(g));
+  return factor * rough_square_root(Scalar<T>(2) * strain_squared(g));
 }
 
 }  // namespace drogue::lbm

@@ -30,19 +30,21 @@ struct HalfStress {
   using Element = std::uint16_t;
   static constexpr float scale = 1024.0f;
 #ifdef __F16C__
-  static Vec<float> load(const Element* p) {
+  /// As they are stored, `scale` times too large: for linear combinations.
+  static Vec<float> load_scaled(const Element* p) {
 #ifdef __AVX512F__
-    const __m512 v = _mm512_maskz_cvtph_ps(all, _mm256_load_si256(reinterpret_cast<const __m256i*>(p)));
-    return reinterpret_cast<Vec<float>>(v) * (1.0f / scale);
+    return reinterpret_cast<Vec<float>>(
+        _mm512_maskz_cvtph_ps(all, _mm256_load_si256(reinterpret_cast<const __m256i*>(p))));
 #else
     alignas(64) float v[lanes];
     for (int i = 0; i < lanes; i += 8)
       _mm256_store_ps(v + i, _mm256_cvtph_ps(_mm_load_si128(reinterpret_cast<const __m128i*>(p + i))));
-    return lbm::load(v) * (1.0f / scale);
+    return lbm::load(v);
 #endif
   }
-  static void store(Element* p, Vec<float> v) {
-    v *= scale;
+  static Vec<float> load(const Element* p) { return load_scaled(p) * (1.0f / scale); }
+  static void store(Element* p, Vec<float> v) { store_scaled(p, v * scale); }
+  static void store_scaled(Element* p, Vec<float> v) {
 #ifdef __AVX512F__
     _mm256_store_si256(reinterpret_cast<__m256i*>(p), _mm512_maskz_cvtps_ph(all, reinterpret_cast<__m512>(v), 0));
 #else
@@ -71,7 +73,9 @@ struct PlainStress {
   using Real = T;
   using Element = T;
   static Vec<T> load(const T* p) { return lbm::load(p); }
+  static Vec<T> load_scaled(const T* p) { return lbm::load(p); }
   static void store(T* p, Vec<T> v) { lbm::store(p, v); }
+  static void store_scaled(T* p, Vec<T> v) { lbm::store(p, v); }
   static void store_streaming(T* p, Vec<T> v) { lbm::store_streaming(p, v); }
   static T get(T e) { return e; }
   static T put(T s) { return s; }
@@ -116,6 +120,16 @@ struct RowLayout {
       lbm::store(macro(row, m), v);
     else
       S::store(stress(row, m), v);
+  }
+  /// The same with the stress as the storage scales it, which saves work where moments are only combined linearly.
+  static Vec<Real> load_scaled(const std::byte* row, int m) {
+    return m < 4 ? lbm::load(macro(row, m)) : S::load_scaled(stress(row, m));
+  }
+  static void store_scaled(std::byte* row, int m, Vec<Real> v) {
+    if (m < 4)
+      lbm::store(macro(row, m), v);
+    else
+      S::store_scaled(stress(row, m), v);
   }
   static Real get(const std::byte* row, int m, int x) { return m < 4 ? macro(row, m)[x] : S::get(stress(row, m)[x]); }
   static void put(std::byte* row, int m, int x, Real value) {
@@ -264,6 +278,13 @@ class MomentField {
           }
         }
     }
+  }
+
+  /// The same where only the velocity of one row has changed.
+  void velocity_to_columns(int id, int y, int z) {
+    for_each_column(id, [&](int x) {
+      for (const Moment m : {ux, uy, uz}) Layout::macro(column(id, x, z), m)[y] = Layout::macro(row(id, y, z), m)[x];
+    });
   }
 
   /// Calls f(x) for the x whose columns are kept.

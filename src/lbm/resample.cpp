@@ -146,7 +146,7 @@ template <int taps, bool midway>
       V sum[layers][2] = {};
       for (int side = 0; side < 2; ++side)
         for (int k = 0; k < lines.terms; ++k) {
-          const V v = Layout::load(terms[side][k], m);
+          const V v = Layout::load_scaled(terms[side][k], m);
           for (int r = 0; r < layers; ++r) sum[r][side] += normal.weight[job.layers.begin + r][k % taps] * v;
         }
       for (int r = 0; r < layers; ++r) {
@@ -172,7 +172,7 @@ template <int taps, bool midway>
         for (int k = 1; k < taps; ++k) v += across.weight[i][k] * from[k][m][r];
         v *= m < 4 ? time_weight : stress_factor;
         if (m >= ux && m <= uz) v += static_cast<Real>(shift[m - ux]);
-        Layout::store(to, m, whole ? v : wanted ? v : Layout::load(to, m));
+        Layout::store_scaled(to, m, whole ? v : wanted ? v : Layout::load_scaled(to, m));
       }
     }
 }

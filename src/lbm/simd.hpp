@@ -160,17 +160,52 @@ void store_streaming(Real* p, Vec<Real> v) {
 #endif
 }
 
+inline bool is_zero(Vec<float> v) {
+#ifdef __AVX512F__
+  return _mm512_cmp_ps_mask(reinterpret_cast<__m512>(v), _mm512_setzero_ps(), _CMP_NEQ_UQ) == 0;
+#else
+  bool zero = true;
+  for (int i = 0; i < lanes; ++i) zero &= v[i] == 0.0f;
+  return zero;
+#endif
+}
+
 template <class V>
 V maximum(V a, V b) {
   return a > b ? a : b;
 }
 
-inline float square_root(float s) { return std::sqrt(s); }
-inline double square_root(double s) { return std::sqrt(s); }
+/// 1 / v, to a few units in the last place.
+template <class T>
+T reciprocal(T v) {
+  return Scalar<T>(1) / v;
+}
+/// The same to four digits at least.
+template <class T>
+T rough_reciprocal(T v) {
+  return reciprocal(v);
+}
+inline float rough_square_root(float s) { return std::sqrt(s); }
+inline double rough_square_root(double s) { return std::sqrt(s); }
 template <class V>
-V square_root(V v) {
+V rough_square_root(V v) {
   for (int i = 0; i < lanes; ++i) v[i] = std::sqrt(v[i]);
   return v;
 }
+
+#ifdef __AVX512F__
+// The divider takes ten cycles and more for a vector of floats, an estimate one, and a step of Newton's method two.
+inline Vec<float> rough_reciprocal(Vec<float> v) {
+  return reinterpret_cast<Vec<float>>(_mm512_maskz_rcp14_ps(all, reinterpret_cast<__m512>(v)));
+}
+inline Vec<float> reciprocal(Vec<float> v) {
+  const Vec<float> r = rough_reciprocal(v);
+  return r * (2.0f - v * r);
+}
+inline Vec<float> rough_square_root(Vec<float> v) {
+  const __mmask16 positive = _mm512_cmp_ps_mask(reinterpret_cast<__m512>(v), _mm512_setzero_ps(), _CMP_GT_OQ);
+  return v * reinterpret_cast<Vec<float>>(_mm512_maskz_rsqrt14_ps(positive, reinterpret_cast<__m512>(v)));
+}
+#endif
 
 }  // namespace drogue::lbm

@@ -203,15 +203,18 @@ void BasicSolver<S>::couple(fluid::FineStepHook& hook) {
 #pragma omp parallel for schedule(static)
   for (int i = 0; i < count; ++i) {
     const float* f = std::as_const(force_).block(opened[i]);
-    for (int r = 0; r < rows_per_block; ++r) {
+    for (int r = 0; r < rows_per_block; ++r, f += fluid::ForceField::stride_y) {
+      std::array<Vec<float>, 3> force;
+      for (int a = 0; a < 3; ++a) force[a] = load_unaligned(f + a * fluid::ForceField::stride_component);
+      if (is_zero(force[0]) && is_zero(force[1]) && is_zero(force[2])) continue;
       std::byte* row = field_[field].block(opened[i]) + r * Layout::bytes;
       for (int a = 0; a < 3; ++a) {
         Real* u = Layout::macro(row, ux + a);
-        const float* along = f + r * fluid::ForceField::stride_y + a * fluid::ForceField::stride_component;
-        store(u, load(u) + lattice_kappa * __builtin_convertvector(load_unaligned(along), Vec<Real>));
+        __builtin_prefetch(Layout::macro(row + n * Layout::bytes, ux + a), 1);  // where a sheet goes on, one plane up
+        store(u, load(u) + lattice_kappa * __builtin_convertvector(force[a], Vec<Real>));
       }
+      field_[field].velocity_to_columns(opened[i], r % n, r / n);
     }
-    field_[field].refresh_columns(opened[i]);
   }
 }
 
