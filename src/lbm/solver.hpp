@@ -87,7 +87,7 @@ class BasicSolver : public fluid::FluidSolver {
   std::array<MomentField<S>, 2> field_;
   Resampler<S> resample_;
   BoundaryFill<S> fill_boundary_;
-  bool forced_;  // by a body force
+  bool forced_;                    // by a body force
   std::vector<Reflux<S>> reflux_;  // by the coarser level of an interface
   fluid::ForceField force_;
   mutable FineVelocity<S> fine_velocity_;  // a cache
