@@ -129,8 +129,8 @@ Resampler<S>::Resampler(const amr::Forest& forest)
 /// Flattened, or GCC 12 passes vectors through memory from call to call.
 template <class S>
 template <int taps, bool midway>
-[[gnu::flatten]] void Resampler<S>::run(const ResampleJob& job, const SourceFields<S>& source, Real stress_factor,
-                                        MomentField<S>& target) const {
+[[gnu::flatten]] void Resampler<S>::run(const ResampleJob& job, const SourceFields<S>& source,
+                                        const Conversion& conversion, MomentField<S>& target) const {
   using Layout = RowLayout<S>;
   using V = Vec<Real>;
   constexpr int layers = taps == restriction_taps ? 2 : 1, most_lines = n;
@@ -158,6 +158,7 @@ template <int taps, bool midway>
   }
 
   const Real time_weight = midway ? Real(0.5) : Real(1);
+  const Real stress_weight = time_weight * static_cast<Real>(conversion.stress_factor);
   const IndexVec<Real> wanted = (lane_numbers<Real> >= job.cells.begin) & (lane_numbers<Real> < job.cells.end);
   const bool whole = job.cells.begin == 0 && job.cells.end == n;
   for (int r = 0; r < layers; ++r)
@@ -168,22 +169,22 @@ template <int taps, bool midway>
       for (int m = 0; m < moments; ++m) {
         V v = across.weight[i][0] * from[0][m][r];
         for (int k = 1; k < taps; ++k) v += across.weight[i][k] * from[k][m][r];
-        v *= m < 4 ? time_weight : time_weight * stress_factor;
+        v *= m < 4 ? time_weight : stress_weight;
+        if (m >= ux && m <= uz) v += static_cast<Real>(conversion.velocity_shift[m - ux]);
         Layout::store_scaled(to, m, whole ? v : wanted ? v : Layout::load_scaled(to, m));
       }
     }
 }
 
 template <class S>
-void Resampler<S>::operator()(const ResampleJob& job, const SourceFields<S>& source, double stress_factor,
+void Resampler<S>::operator()(const ResampleJob& job, const SourceFields<S>& source, const Conversion& conversion,
                               MomentField<S>& target) const {
-  const Real factor = static_cast<Real>(stress_factor);
   if (job.rule[0] == restriction_rule)
-    run<restriction_taps, false>(job, source, factor, target);
+    run<restriction_taps, false>(job, source, conversion, target);
   else if (source.leaves_end)
-    run<interpolation_taps, true>(job, source, factor, target);
+    run<interpolation_taps, true>(job, source, conversion, target);
   else
-    run<interpolation_taps, false>(job, source, factor, target);
+    run<interpolation_taps, false>(job, source, conversion, target);
 
   using Layout = RowLayout<S>;
   for (int layer = job.layers.begin; layer < job.layers.end; ++layer)

@@ -62,14 +62,19 @@ struct SourceFields {
   const MomentField<S>& parents;
 };
 
+/// What differs between the states of two levels.
+struct Conversion {
+  double stress_factor = 1.0;          ///< of the stress, which scales with tau and the time step
+  Vec3 velocity_shift = Vec3::Zero();  ///< added to the velocity, lattice units
+};
+
 /// Runs jobs; knows the weights.
 template <class S>
 class Resampler {
  public:
   explicit Resampler(const amr::Forest& forest);
 
-  /// The stress is multiplied by `stress_factor` (it scales with tau and the time step).
-  void operator()(const ResampleJob& job, const SourceFields<S>& source, double stress_factor,
+  void operator()(const ResampleJob& job, const SourceFields<S>& source, const Conversion& conversion,
                   MomentField<S>& target) const;
 
  private:
@@ -86,7 +91,8 @@ class Resampler {
   };
 
   template <int taps, bool midway>
-  void run(const ResampleJob& job, const SourceFields<S>& source, Real stress_factor, MomentField<S>& target) const;
+  void run(const ResampleJob& job, const SourceFields<S>& source, const Conversion& conversion,
+           MomentField<S>& target) const;
 
   const amr::Forest& forest_;
   std::array<Stencil, 5> stencil_;  // by rule

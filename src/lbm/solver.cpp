@@ -142,12 +142,12 @@ void BasicSolver<S>::interpolate_rims(int level, bool midway) {
   const Level &fine = levels_[level], &coarse = levels_[level - 1];
   const MomentField<S>&start = field_[coarse.now], &end = field_[1 - coarse.now];
   const SourceFields<S> source{start, midway ? &end : nullptr, midway ? end : start};
-  const double factor = stress_ratio(level - 1, level);
+  const Conversion conversion{stress_ratio(level - 1, level)};
   const int targets = static_cast<int>(fine.from_coarser.first.size()) - 1;
 #pragma omp parallel for schedule(dynamic, 4)
   for (int i = 0; i < targets; ++i)
     for (int j = fine.from_coarser.first[i]; j < fine.from_coarser.first[i + 1]; ++j)
-      resample_(fine.from_coarser.job[j], source, factor, field_[fine.now]);
+      resample_(fine.from_coarser.job[j], source, conversion, field_[fine.now]);
 }
 
 template <class S>
@@ -155,12 +155,12 @@ void BasicSolver<S>::restrict_to_parents(int level, int field) {
   const Level &coarse = levels_[level], &fine = levels_[level + 1];
   const MomentField<S>& from = field_[fine.now];
   const SourceFields<S> source{from, nullptr, from};
-  const double factor = stress_ratio(level + 1, level);
+  const Conversion conversion{stress_ratio(level + 1, level)};
   const int targets = static_cast<int>(coarse.to_parents.first.size()) - 1;
 #pragma omp parallel for schedule(dynamic, 1)
   for (int i = 0; i < targets; ++i)
     for (int j = coarse.to_parents.first[i]; j < coarse.to_parents.first[i + 1]; ++j)
-      resample_(coarse.to_parents.job[j], source, factor, field_[field]);
+      resample_(coarse.to_parents.job[j], source, conversion, field_[field]);
 }
 
 /// Pneq = -2 rho c_s^2 tau S dt: per step of each level, so it scales with tau dt.

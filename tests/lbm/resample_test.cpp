@@ -48,8 +48,8 @@ void transfer(const amr::Forest& forest, Field& field, float up, float down) {
   const TransferPlan restriction = plan_restriction(forest, 0), interpolation = plan_interpolation(forest, 1);
   ASSERT_FALSE(restriction.job.empty());
   ASSERT_FALSE(interpolation.job.empty());
-  for (const ResampleJob& job : restriction.job) resample(job, now, up, field);
-  for (const ResampleJob& job : interpolation.job) resample(job, now, down, field);
+  for (const ResampleJob& job : restriction.job) resample(job, now, {up}, field);
+  for (const ResampleJob& job : interpolation.job) resample(job, now, {down}, field);
 }
 
 /// A moment of a neighbour at `offset`, as the update of a block finds it: in columns across x faces, else in rows.
