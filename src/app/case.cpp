@@ -6,9 +6,18 @@
 
 namespace drogue::app {
 
-bool is_any(const Body&) { return true; }
+bool in_flow(const Body& body) { return body.in_flow; }
 bool is_elastic(const Body& body) { return std::holds_alternative<ElasticBody>(body.kind); }
+bool is_elastic_in_flow(const Body& body) { return is_elastic(body) && body.in_flow; }
 bool is_rigid(const Body& body) { return std::holds_alternative<RigidBody>(body.kind); }
+const std::vector<Probe>& probes_of(const Body& body) {
+  static const std::vector<Probe> none;
+  const auto* elastic = std::get_if<ElasticBody>(&body.kind);
+  return elastic ? elastic->probes : none;
+}
+
+const char* unit_of(const Probe& probe) { return probe.scale == 1.0 ? "m" : "1"; }
+
 bool has_wake(const Body& body) {
   const auto* rigid = std::get_if<RigidBody>(&body.kind);
   return rigid && rigid->shape.width > 0.0 && rigid->motion.is_still();

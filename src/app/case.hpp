@@ -13,8 +13,7 @@
 
 #include "amr/forest.hpp"
 #include "core/types.hpp"
-#include "fem/hex_mesh.hpp"
-#include "fem/material.hpp"
+#include "fem/mesh_shapes.hpp"
 #include "fem/structure.hpp"
 #include "fluid/specification.hpp"
 #include "fsi/coupling.hpp"
@@ -34,20 +33,69 @@ struct Region {
   double spacing = 0.0;       ///< [m]
 };
 
-/// fem::Hold with its nodes still named: "corners", "all", or a node set of the mesh.
+/// Nodes by the name of their set (fem::nodes_named).
+struct NodesNamed {
+  std::string name;
+  double patch = 0.0;  ///< [m] edge of the corners, if the name is "corners"
+};
+
+/// The solid that a sheet sweeps out.
+struct BlockDescription {
+  fem::SheetDescription base;
+  Vec3 way = Vec3::Zero();  ///< [m]
+  int layers = 1;
+};
+
+/// A mesh to be read or made; one without anything is filled by points and cables.
+using MeshDescription = std::variant<std::filesystem::path, fem::PlateDescription, fem::SheetDescription,
+                                     fem::DiskDescription, BlockDescription, fem::Mesh>;
+
+struct PointDescription {
+  std::string name;
+  Vec3 place = Vec3::Zero();  ///< [m]
+  double mass = 0.0;          ///< [kg]
+};
+
+/// Straight in the mesh, from every node of one set to the nearest of the other.
+struct CableDescription {
+  std::string name;
+  std::string from, to;
+  int elements = 1;
+  double length = 0.0;  ///< unstressed [m]; 0 for that in the mesh
+  fem::Region region;
+};
+
 struct HoldDescription {
-  std::string nodes;
-  double patch = 0.0;  ///< [m] edge of the held corner
-  bool rigid = false;
-  double stiffness = 0.0;  ///< [N/m^4]
-  double damping = 0.0;    ///< [N s/m^4]
+  NodesNamed nodes;
+  fem::Hold hold;  ///< without its nodes
+};
+
+struct ForceDescription {
+  NodesNamed nodes;
+  std::array<Expression, 3> force{};  ///< [N]
+};
+
+/// The displacement of a node, as a column of the history and a result.
+struct Probe {
+  std::string name;
+  Vec3 place = Vec3::Zero();       ///< the node nearest to it in the mesh [m]
+  Vec3 direction = Vec3::UnitX();  ///< unit vector
+  double scale = 1.0;              ///< [m] that the displacement is divided by
+  std::string statistic;           ///< "last", "peak", "stable" or "period"
 };
 
 struct ElasticBody {
-  std::variant<fem::PlateDescription, std::filesystem::path> mesh;
-  fem::Material material;
-  fem::StructureOptions structure;
+  MeshDescription mesh;
+  std::vector<PointDescription> points;
+  std::vector<CableDescription> cables;
+  std::vector<fem::Region> regions;  ///< besides the cables
   std::vector<HoldDescription> holds;
+  std::vector<ForceDescription> forces;
+  std::vector<fem::Pressure> pressures;
+  Vec3 gravity = Vec3::Zero();  ///< [m/s^2]
+  double damping = 0.0;         ///< [1/s]
+  fem::StructureOptions structure;
+  std::vector<Probe> probes;
   fsi::CouplingOptions coupling;
 };
 
@@ -62,12 +110,17 @@ struct Body {
   std::string name;
   double reference_area = 0.0;  ///< [m^2] of force coefficients
   std::variant<ElasticBody, RigidBody> kind;
+  bool in_flow = true;  ///< as all are where there is a fluid
 };
 
 /// What columns of the history and results ask of a body.
-bool is_any(const Body& body);
+bool in_flow(const Body& body);
 bool is_elastic(const Body& body);
+bool is_elastic_in_flow(const Body& body);
 bool is_rigid(const Body& body);
+const std::vector<Probe>& probes_of(const Body& body);
+/// "m", or "1" for a displacement over a length.
+const char* unit_of(const Probe& probe);
 /// Whether it stands still and has a width, by which the length of its wake is told.
 bool has_wake(const Body& body);
 
@@ -119,6 +172,13 @@ struct Output {
   double checkpoint = 0.0;  ///< of wall time
 };
 
+/// How structures move where there is no fluid.
+struct StructureSolver {
+  bool at_rest = false;  ///< every step ends in equilibrium
+  double step = 0.0;     ///< [s]
+  fem::RelaxationOptions relaxation;
+};
+
 struct ResultOptions {
   std::string body;                       ///< whose results are summarised; empty without bodies
   std::array<double, 2> stable_window{};  ///< [s]
@@ -139,7 +199,8 @@ struct Case {
   std::filesystem::path file;
   std::string name;  ///< of the folder
   std::string title;
-  std::string solver;
+  std::string solver;  ///< of the fluid; "none" for structures alone
+  bool has_fluid() const { return solver != "none"; }
 
   fluid::Specification fluid;
   double reference_length = 0.0;  ///< [m]; 0 if not given
@@ -148,6 +209,7 @@ struct Case {
   std::vector<Region> regions;
   std::vector<Body> bodies;
   double end = 0.0;  ///< [s]
+  StructureSolver structure;
   Measure measure;
   Output output;
   ResultOptions results;

@@ -240,10 +240,22 @@ void fail(const Case& c, const std::string& key, const std::string& message) {
   throw InputError(fmt::format("{}: {} {}", origin == c.origin.end() ? c.file.string() : origin->second, key, message));
 }
 
+void at_key(const Case& c, const std::string& key, const std::function<void()>& action) {
+  try {
+    action();
+  } catch (const InputError& error) {
+    fail(c, key, fmt::format("is wrong: {}", error.what()));
+  }
+}
+
 void check_case(const Case& c) {
-  check_domain(c);
-  check_grid(c);
-  check_fluid(c);
+  if (c.has_fluid()) {
+    check_domain(c);
+    check_grid(c);
+    check_fluid(c);
+  } else if (c.bodies.empty()) {
+    fail(c, "fluid.solver", "= \"none\" leaves nothing to simulate; expected a [[body]]");
+  }
   check_bodies(c);
   check_measure(c);
   check_results(c);

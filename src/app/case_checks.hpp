@@ -2,6 +2,7 @@
 // What must hold between the values of a case for it to be run. Every function throws InputError.
 #pragma once
 
+#include <functional>
 #include <span>
 #include <string>
 
@@ -15,6 +16,9 @@ void check_case(const Case& c);
 /// The body, given by its nodes or by points of its surface [m], must lie in the domain, and in finest-level blocks
 /// with the delta function's margin.
 void check_body_in_grid(const Case& c, const Body& body, std::span<const Vec3> points, const amr::Forest& forest);
+
+/// Does something; an InputError about it is thrown again with file, line and key.
+void at_key(const Case& c, const std::string& key, const std::function<void()>& action);
 
 /// Throws InputError "file:line: key <message>".
 [[noreturn]] void fail(const Case& c, const std::string& key, const std::string& message);

@@ -137,9 +137,13 @@ void read_collision(Section& section, fluid::Specification& fluid) {
       {.doc = "of the state: float32 with the stress in 16 bits, all float32, all float64", .fallback = "half_stress"});
 }
 
-void read_fluid(Section section, Case& c) {
+std::string read_solver(Section& fluid) {
+  return fluid.choose<std::string>("solver", {{"lbm", "lbm"}, {"none", "none"}},
+                                   {.doc = "lattice Boltzmann, or none for structures alone", .fallback = "lbm"});
+}
+
+void read_fluid(Section& section, Case& c) {
   fluid::Specification& fluid = c.fluid;
-  c.solver = section.choose<std::string>("solver", {{"lbm", "lbm"}}, {.doc = "lattice Boltzmann", .fallback = "lbm"});
   fluid.density = section.get<double>("density", {.unit = "kg/m^3", .doc = "mass density", .range = positive});
   fluid.reference_velocity = section.get<double>(
       "reference_velocity",
@@ -190,6 +194,30 @@ void read_grid(Section grid, Case& c) {
           "sweep", {.unit = "m", .doc = "the way the body will move, included", .fallback = Vec3(0.0, 0.0, 0.0)});
     }
   });
+}
+
+StructureSolver read_structure_solver(Section section, double end) {
+  StructureSolver solver;
+  solver.at_rest = section.choose<bool>(
+      "solver", {{"explicit", false}, {"relaxation", true}},
+      {.doc =
+           "motion, explicit with automatic sub-steps, or equilibrium at the end of every step, by dynamic relaxation",
+       .fallback = "explicit"});
+  solver.step = section.get<double>("step", {.unit = "s",
+                                             .doc = "between states that can be written; by default a hundredth of "
+                                                    "time.end, or all of it to an equilibrium",
+                                             .derived = solver.at_rest ? end : end / 100.0,
+                                             .range = positive});
+  if (solver.at_rest || section.describing()) {
+    solver.relaxation.tolerance =
+        section.get<double>("tolerance", {.doc = "forces left at rest, over loads and reactions",
+                                          .fallback = solver.relaxation.tolerance,
+                                          .range = positive});
+    solver.relaxation.most_iterations = section.get<int>(
+        "most_iterations",
+        {.doc = "before it is given up", .fallback = solver.relaxation.most_iterations, .range = {.min = 1}});
+  }
+  return solver;
 }
 
 void read_output(Section section, Case& c) {
@@ -243,13 +271,23 @@ Case read_all(const Document& document, Record& record) {
   Section root(document, record);
   c.title = root.get<std::string>("title", {.doc = "one line on what the case is", .fallback = ""});
   if (root.describing()) root.find<std::string>("base", {.doc = "another case file that this one completes"});
-  read_domain(root.section("domain", "the box of fluid"), c);
-  read_fluid(root.section("fluid", "the fluid and its solver"), c);
-  read_grid(root.section("grid", "the block-refined grid"), c);
-  root.each("body", "a body in the flow", [&](Section& body) { c.bodies.push_back(read_body(body, c)); });
+  Section fluid = root.section("fluid", "the fluid and its solver");
+  c.solver = read_solver(fluid);
+  if (c.has_fluid()) {
+    read_domain(root.section("domain", "the box of fluid"), c);
+    read_fluid(fluid, c);
+    read_grid(root.section("grid", "the block-refined grid"), c);
+  }
+  root.each("body", "a body, in the flow if there is one",
+            [&](Section& body) { c.bodies.push_back(read_body(body, c)); });
   Section time = root.section("time", "the run");
   c.end = time.get<double>("end", {.unit = "s", .doc = "the run starts at 0", .range = positive});
-  c.measure = read_measure(root.section("measure", "what is measured of the flow, beyond what every run tells"));
+  if (!c.has_fluid() || root.describing()) {
+    c.structure = read_structure_solver(root.section("structure", "how structures move without a fluid"), c.end);
+  }
+  if (c.has_fluid()) {
+    c.measure = read_measure(root.section("measure", "what is measured of the flow, beyond what every run tells"));
+  }
   read_output(root.section("output", "what is written, and when"), c);
   read_results(root.section("results", "what is summarised at the end"), c);
   root.section("reference", "published results")

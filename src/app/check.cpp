@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <optional>
 
 #include "app/case_reader.hpp"
 #include "app/inspect.hpp"
@@ -56,11 +57,12 @@ std::string check_report(const std::filesystem::path& path, const std::vector<st
   const Case c = read_case(path, overrides);
   const auto folder = std::filesystem::temp_directory_path() / fmt::format("drogue-check-{}", c.name);
   const Meshes meshes = load_meshes(c, folder);
-  const amr::Forest forest = make_forest(c, meshes);
-  const auto bodies = make_bodies(c, meshes, forest);
+  std::optional<amr::Forest> forest;
+  if (c.has_fluid()) forest.emplace(make_forest(c, meshes));
+  const auto bodies = make_bodies(c, meshes, forest ? &*forest : nullptr);
 
   std::string text = fmt::format("{}\n\n", c.title.empty() ? c.name : c.title);
-  text += fluid_text(c) + grid_text(c, forest) + cost_text(c, forest);
+  if (forest) text += fluid_text(c) + grid_text(c, *forest) + cost_text(c, *forest);
   for (const auto& body : bodies) text += body->report(c);
   return text + fmt::format("{} is in order\n", c.file.string());
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A body in the flow as the run sees it, whatever it is made of.
+// A body as the run sees it, whatever it is made of.
 #pragma once
 
 #include <filesystem>
@@ -19,7 +19,9 @@ class CoupledBody : public fluid::FineStepHook {
   CoupledBody& operator=(const CoupledBody&) = delete;
 
   /// What a row of the history says, but for the coefficients; forces are means since the last call.
-  virtual BodyRow measure(const fluid::FluidSolver& fluid) = 0;
+  virtual BodyRow measure(const fluid::FluidSolver* fluid) = 0;
+  /// Without a fluid, moves over `dt` from `time` [s] on. Throws Diverged.
+  virtual void step_alone(double time, double dt) = 0;
   /// Writes a `.vtu` of the body as it is at `time` [s]. Throws std::runtime_error naming the file.
   virtual void write(const std::filesystem::path& file, double time) const = 0;
   /// A few lines about what follows from its description.

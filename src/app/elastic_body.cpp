@@ -5,9 +5,10 @@
 
 #include <cmath>
 #include <numeric>
+#include <optional>
+#include <utility>
 
 #include "app/case_checks.hpp"
-#include "core/nearest_name.hpp"
 #include "io/canopy.hpp"
 
 namespace drogue::app {
@@ -16,35 +17,51 @@ namespace {
 
 const ElasticBody& elastic(const Body& body) { return std::get<ElasticBody>(body.kind); }
 
-/// The nodes of a hold on a mesh. Throws InputError if there are none.
-std::vector<int> held_nodes(const Case& c, const Body& body, const HoldDescription& hold, const fem::HexMesh& mesh) {
-  std::vector<int> nodes;
-  std::vector<std::string> known{"corners", "all"};
-  for (const auto& [name, set] : mesh.node_sets) known.push_back(name);
-  if (hold.nodes == "corners") {
-    nodes = fem::corner_nodes(mesh, hold.patch);
-  } else if (hold.nodes == "all") {
-    nodes.resize(mesh.nodes.size());
-    std::iota(nodes.begin(), nodes.end(), 0);
-  } else if (const auto set = mesh.node_sets.find(hold.nodes); set != mesh.node_sets.end()) {
-    nodes = set->second;
-  } else {
-    fail(c, fmt::format("body.{}.hold", body.name),
-         fmt::format("names the node set \"{}\", which its mesh does not have{}", hold.nodes,
-                     did_you_mean(hold.nodes, known)));
-  }
-  if (nodes.empty()) {
-    fail(c, fmt::format("body.{}.hold", body.name), fmt::format("holds no node: the set \"{}\" is empty", hold.nodes));
-  }
-  return nodes;
+std::vector<int> find_nodes(const Case& c, const std::string& key, const NodesNamed& nodes, const fem::Mesh& mesh) {
+  std::vector<int> found;
+  at_key(c, key, [&] { found = nodes_named(mesh, nodes.name, nodes.patch); });
+  return found;
 }
 
-std::vector<fem::Hold> make_holds(const Case& c, const Body& body, const fem::HexMesh& mesh) {
-  std::vector<fem::Hold> holds;
-  for (const HoldDescription& hold : elastic(body).holds) {
-    holds.push_back({held_nodes(c, body, hold, mesh), hold.rigid, hold.stiffness, hold.damping});
+std::string hold_key(const Body& body) { return fmt::format("body.{}.hold", body.name); }
+
+/// Region of a cable that is described; its elements are as much longer than in the mesh as it is.
+fem::Region cable_region(const CableDescription& cable, const fem::Mesh& mesh) {
+  fem::Region region = cable.region;
+  if (cable.length == 0.0) return region;
+  const std::vector<int>& lines = mesh.element_sets.at(cable.name).lines;
+  double straight = 0.0;
+  for (const int line : lines) straight += (mesh.nodes[mesh.lines[line][1]] - mesh.nodes[mesh.lines[line][0]]).norm();
+  const double cables = static_cast<double>(lines.size()) / cable.elements;
+  std::get<fem::Cable>(region.kind).length_ratio = cable.length * cables / straight;
+  return region;
+}
+
+fem::Model make_model(const Case& c, const Body& description, const fem::Mesh& mesh) {
+  const ElasticBody& body = elastic(description);
+  fem::Model model{mesh, body.regions, {}, body.structure};
+  for (const CableDescription& cable : body.cables) model.regions.push_back(cable_region(cable, mesh));
+  for (const HoldDescription& hold : body.holds) {
+    model.loads.holds.push_back(hold.hold);
+    model.loads.holds.back().nodes = find_nodes(c, hold_key(description), hold.nodes, mesh);
   }
-  return holds;
+  for (const ForceDescription& force : body.forces) {
+    const std::string key = fmt::format("body.{}.force", description.name);
+    model.loads.forces.push_back({find_nodes(c, key, force.nodes, mesh), force.force});
+  }
+  for (const PointDescription& point : body.points) {
+    model.loads.masses.push_back({mesh.node_sets.at(point.name).front(), point.mass});
+  }
+  model.loads.pressures = body.pressures;
+  model.loads.gravity = body.gravity;
+  model.loads.damping = body.damping;
+  return model;
+}
+
+fem::Structure make_structure(const Case& c, const Body& body, const fem::Mesh& mesh) {
+  std::optional<fem::Structure> structure;
+  at_key(c, "body." + body.name, [&] { structure.emplace(make_model(c, body, mesh)); });
+  return std::move(*structure);
 }
 
 int point_nearest(const fem::Structure& structure, const Vec3& place) {
@@ -57,30 +74,31 @@ int point_nearest(const fem::Structure& structure, const Vec3& place) {
   return nearest;
 }
 
-Vec3 middle(const fem::HexMesh& mesh) {
-  Vec3 lower = mesh.nodes.front(), upper = lower;
-  for (const Vec3& node : mesh.nodes) {
-    lower = lower.cwiseMin(node);
-    upper = upper.cwiseMax(node);
-  }
-  return 0.5 * (lower + upper);
-}
-
 double sum(std::span<const double> values) { return std::accumulate(values.begin(), values.end(), 0.0); }
 
 }  // namespace
 
-CoupledElasticBody::CoupledElasticBody(const Case& c, const Body& body, fem::HexMesh mesh, const amr::Forest& forest)
-    : CoupledBody(body),
-      structure_(mesh, elastic(body).material, elastic(body).structure, make_holds(c, body, mesh)),
-      coupling_(structure_, forest, elastic(body).coupling),
-      centre_point_(point_nearest(structure_, middle(mesh))),
-      centre_reference_(structure_.mean_position(centre_point_)) {}
+CoupledElasticBody::CoupledElasticBody(const Case& c, const Body& body, const fem::Mesh& mesh,
+                                       const amr::Forest* forest)
+    : CoupledBody(body), solver_(c.structure), structure_(make_structure(c, body, mesh)) {
+  if (forest) coupling_.emplace(structure_, *forest, elastic(body).coupling);
+  const Box box = bounding_box(mesh);
+  centre_point_ = point_nearest(structure_, 0.5 * (box.lower + box.upper));
+  centre_reference_ = structure_.mean_position(centre_point_);
+  for (const Probe& probe : elastic(body).probes) probed_nodes_.push_back(node_nearest(mesh, probe.place));
+}
 
-BodyRow CoupledElasticBody::measure(const fluid::FluidSolver& fluid) {
-  const std::array<double, 2> slip = coupling_.slip(fluid.fine_velocity());
+void CoupledElasticBody::step_alone(double time, double dt) {
+  const Timed timed(time_alone_);
+  if (solver_.at_rest) {
+    structure_.relax(time + dt, solver_.relaxation);
+  } else {
+    structure_.advance(dt, time);
+  }
+}
+
+BodyRow CoupledElasticBody::measure(const fluid::FluidSolver* fluid) {
   BodyRow row;
-  row.force = coupling_.take_mean_force();
   row.centre = structure_.mean_position(centre_point_) - centre_reference_;
   row.reaction = structure_.reaction();
   row.elastic_energy = structure_.elastic_energy();
@@ -89,9 +107,17 @@ BodyRow CoupledElasticBody::measure(const fluid::FluidSolver& fluid) {
   row.thickness_stretch = structure_.mean_thickness_stretch();
   row.plane_stress = structure_.plane_stress_comparison();
   row.volume_ratio = structure_.volume_ratio_range();
+  row.substeps = structure_.substeps();
+  const auto& probes = elastic(description).probes;
+  for (std::size_t k = 0; k < probes.size(); ++k) {
+    const Vec3 moved = structure_.position()[probed_nodes_[k]] - structure_.mesh().nodes[probed_nodes_[k]];
+    row.probes.push_back(moved.dot(probes[k].direction) / probes[k].scale);
+  }
+  if (!fluid) return row;
+  row.force = coupling_->take_mean_force();
+  const std::array<double, 2> slip = coupling_->slip(fluid->fine_velocity());
   row.slip_normal = slip[0];
   row.slip_rms = slip[1];
-  row.substeps = structure_.substeps();
   return row;
 }
 
@@ -101,22 +127,30 @@ void CoupledElasticBody::write(const std::filesystem::path& file, double time) c
 
 void CoupledElasticBody::transfer_state(Archive& archive) {
   archive.transfer("structure", structure_);
-  archive.transfer("coupling", coupling_);
+  if (coupling_) archive.transfer("coupling", *coupling_);
+}
+
+double CoupledElasticBody::structure_seconds() const {
+  return coupling_ ? coupling_->structure_seconds() : time_alone_.seconds();
 }
 
 std::string CoupledElasticBody::report(const Case& c) const {
   const fem::Structure& s = structure_;
-  const double stable = s.stable_step(), step = time_step(c, level_of(c.domain.coarsest, c.finest));
-  std::string text = fmt::format(
-      "body    {}: {} nodes, {} elements, {} points on the fluid; mass {:.4g} kg, {:.4g} kg with the fluid it drags\n"
-      "        stable step {:.3g} s, {:.0f} sub-steps in a fine step of {:.3g} s\n",
-      description.name, s.mesh().nodes.size(), s.mesh().elements.size(), s.inertia().point.size(), sum(s.own_mass()),
-      sum(s.inertia().mass), stable, std::ceil(step / stable), step);
-  for (const HoldDescription& hold : elastic(description).holds) {
-    const std::vector<int> nodes = held_nodes(c, description, hold, s.mesh());
+  const double stable = s.stable_step();
+  const double step = c.has_fluid() ? time_step(c, level_of(c.domain.coarsest, c.finest)) : c.structure.step;
+  std::string text = fmt::format("body    {}: {} nodes, {} elements, mass {:.4g} kg", description.name,
+                                 s.mesh().nodes.size(), s.elements(), sum(s.own_mass()));
+  if (coupling_) {
+    text += fmt::format("; {} points on the fluid, {:.4g} kg with the fluid they drag", s.inertia().point.size(),
+                        sum(s.inertia().mass));
+  }
+  text += fmt::format("\n        stable step {:.3g} s, {:.0f} sub-steps in a {} of {:.3g} s\n", stable,
+                      std::ceil(step / stable), coupling_ ? "fine step" : "step", step);
+  for (const auto& [nodes, hold] : elastic(description).holds) {
+    const std::vector<int> held = find_nodes(c, hold_key(description), nodes, s.mesh());
     double volume = 0.0;
-    for (int node : nodes) volume += s.volume()[node];
-    text += fmt::format("        holds {}: {} nodes, {}\n", hold.nodes, nodes.size(),
+    for (int node : held) volume += s.volume()[node];
+    text += fmt::format("        holds {}: {} nodes, {}\n", nodes.name, held.size(),
                         hold.rigid ? "rigid" : fmt::format("{:.4g} N/m in all", hold.stiffness * volume));
   }
   return text;

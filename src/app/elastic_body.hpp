@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A hyperelastic body in the flow.
+// An elastic body: solids, membranes, cables; in the flow, or alone.
 #pragma once
 
+#include <optional>
+#include <vector>
+
 #include "app/coupled_body.hpp"
-#include "fem/hex_mesh.hpp"
+#include "core/stopwatch.hpp"
 #include "fem/structure.hpp"
 #include "fsi/coupling.hpp"
 
@@ -11,21 +14,25 @@ namespace drogue::app {
 
 class CoupledElasticBody : public CoupledBody {
  public:
-  /// `body` and `forest` outlive it. Throws InputError for a mesh or values that cannot be run.
-  CoupledElasticBody(const Case& c, const Body& body, fem::HexMesh mesh, const amr::Forest& forest);
+  /// `body` and `forest`, null without a fluid, outlive it. Throws InputError for a mesh or values that cannot be run.
+  CoupledElasticBody(const Case& c, const Body& body, const fem::Mesh& mesh, const amr::Forest* forest);
 
-  void on_fine_step(fluid::FineStep& step) override { coupling_.on_fine_step(step); }
-  BodyRow measure(const fluid::FluidSolver& fluid) override;
+  void on_fine_step(fluid::FineStep& step) override { coupling_->on_fine_step(step); }
+  void step_alone(double time, double dt) override;
+  BodyRow measure(const fluid::FluidSolver* fluid) override;
   void write(const std::filesystem::path& file, double time) const override;
   std::string report(const Case& c) const override;
   void transfer_state(Archive& archive) override;
-  double structure_seconds() const override { return coupling_.structure_seconds(); }
+  double structure_seconds() const override;
 
  private:
+  StructureSolver solver_;  // without a fluid
   fem::Structure structure_;
-  fsi::Coupling coupling_;
+  std::optional<fsi::Coupling> coupling_;
   int centre_point_;       // of the inertia: nearest the middle of the reference mesh
   Vec3 centre_reference_;  // where it was [m]
+  std::vector<int> probed_nodes_;
+  Stopwatch time_alone_;
 };
 
 }  // namespace drogue::app

@@ -18,7 +18,7 @@ struct Source {
 };
 
 struct BodySource : Source<BodyRow> {
-  bool (*applies)(const Body&) = is_any;
+  bool (*applies)(const Body&) = in_flow;
 };
 
 using B = const BodyRow&;
@@ -50,7 +50,7 @@ constexpr BodySource body_columns[] = {
     {{"plane_stress_misfit", "1", [](B b) { return b.plane_stress[1]; }}, is_elastic},
     {{"J_min", "1", [](B b) { return b.volume_ratio[0]; }}, is_elastic},
     {{"J_max", "1", [](B b) { return b.volume_ratio[1]; }}, is_elastic},
-    {{"slip_normal", "m/s", [](B b) { return b.slip_normal; }}, is_elastic},
+    {{"slip_normal", "m/s", [](B b) { return b.slip_normal; }}, is_elastic_in_flow},
     {{"slip_rms", "m/s", [](B b) { return b.slip_rms; }}},
     {{"slip_max", "m/s", [](B b) { return b.slip_max; }}, is_rigid},
     {{"substeps", "1", [](B b) { return static_cast<double>(b.substeps); }}, is_elastic},
@@ -58,7 +58,7 @@ constexpr BodySource body_columns[] = {
 };
 
 struct FlowSource : Source<FlowRow> {
-  bool (*applies)(const Case&) = [](const Case&) { return true; };
+  bool (*applies)(const Case&) = [](const Case& c) { return c.has_fluid(); };
 };
 
 using F = const FlowRow&;
@@ -90,6 +90,11 @@ std::vector<History::Column> History::columns_of(const Case& c) {
       columns.push_back({fmt::format("{}.{}", c.bodies[i].name, s.name), s.unit,
                          [i, value = s.value](R row) { return value(row.bodies[i]); }});
     }
+    const auto& probes = probes_of(c.bodies[i]);
+    for (std::size_t k = 0; k < probes.size(); ++k) {
+      columns.push_back({fmt::format("{}.{}", c.bodies[i].name, probes[k].name), unit_of(probes[k]),
+                         [i, k](R row) { return row.bodies[i].probes[k]; }});
+    }
   }
   for (const FlowSource& s : flow_columns) {
     if (s.applies(c)) columns.push_back({s.name, s.unit, [value = s.value](R row) { return value(row.flow); }});
@@ -98,6 +103,7 @@ std::vector<History::Column> History::columns_of(const Case& c) {
     const Profile& p = c.measure.profiles[i];
     if (p.has_reference()) columns.push_back({"rms_" + p.name, "1", [i](R row) { return row.flow.profile_rms[i]; }});
   }
+  if (!c.has_fluid()) return columns;
   for (const Source<Row>& s : run_columns) columns.push_back({s.name, s.unit, s.value});
   return columns;
 }

@@ -31,7 +31,8 @@ struct BodyRow {
   double slip_normal = 0.0;                      ///< of the fluid past the body, mean along the normal [m/s]
   double slip_rms = 0.0, slip_max = 0.0;         ///< [m/s]
   int substeps = 0;
-  double wake_length = 0.0;  ///< in widths of the body
+  std::vector<double> probes;  ///< of the case, in its order
+  double wake_length = 0.0;    ///< in widths of the body
 };
 
 /// What a row tells of the flow; what the case does not ask for is zero.

@@ -41,7 +41,8 @@ void Progress::update(double time, double mlups, std::optional<double> c_d) {
     if (reached <= shown_) return;
     shown_ = reached;
   }
-  std::string line = fmt::format("{:4.0f} %   t = {:.4g} s   {:.0f} MLUPS", 100.0 * share, time, mlups);
+  std::string line = fmt::format("{:4.0f} %   t = {:.4g} s", 100.0 * share, time);
+  if (mlups > 0.0) line += fmt::format("   {:.0f} MLUPS", mlups);
   if (c_d) line += fmt::format("   C_D {:.3f}", *c_d);
   line += fmt::format("   {} left", duration(time > begin_ ? now * (end_ - time) / (time - begin_) : 0.0));
   if (live_) {

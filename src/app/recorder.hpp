@@ -50,7 +50,7 @@ class Recorder {
   History history_;
   Schedule row_due_;
   Snapshots snapshots_;
-  FlowMeasurements flow_;
+  std::optional<FlowMeasurements> flow_;
   std::int64_t updates_at_row_ = 0;
   double seconds_at_row_ = 0.0, mlups_ = 0.0;
   Stopwatch watch_;

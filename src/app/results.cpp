@@ -72,6 +72,20 @@ Number last(const Column&, const Column& value, const Case&) {
   return value.empty() ? std::nullopt : Number(value.back());
 }
 
+/// Mean time between rises through the middle of the range, from the first to the last.
+Number period(const Column& time, const Column& value, const Case&) {
+  if (value.empty()) return std::nullopt;
+  const auto [low, high] = std::ranges::minmax(value);
+  const double middle = 0.5 * (low + high);
+  std::vector<double> rises;
+  for (std::size_t i = 1; i < value.size(); ++i) {
+    if (!(value[i - 1] < middle && value[i] >= middle)) continue;
+    rises.push_back(time[i] - (time[i] - time[i - 1]) * (value[i] - middle) / (value[i] - value[i - 1]));
+  }
+  if (rises.size() < 2) return std::nullopt;
+  return (rises.back() - rises.front()) / static_cast<double>(rises.size() - 1);
+}
+
 struct Definition {
   std::string name, unit;
   std::string column;  ///< of the history; of a body without its name
@@ -79,7 +93,7 @@ struct Definition {
 };
 
 struct BodyDefinition : Definition {
-  bool (*applies)(const Body&) = is_any;
+  bool (*applies)(const Body&) = in_flow;
 };
 
 const std::vector<BodyDefinition>& body_results() {
@@ -92,7 +106,7 @@ const std::vector<BodyDefinition>& body_results() {
       {{"centre_dx_peak_time", "s", "centre_dx", peak_time}, is_elastic},
       {{"centre_dx_stable", "m", "centre_dx", stable}, is_elastic},
       {{"centre_dx_stable_drift", "", "centre_dx", stable_drift}, is_elastic},
-      {{"slip_normal_stable", "m/s", "slip_normal", stable}, is_elastic},
+      {{"slip_normal_stable", "m/s", "slip_normal", stable}, is_elastic_in_flow},
       {{"face_difference_max", "m/s", "face_difference", largest}, is_elastic},
       {{"slip_rms_stable", "m/s", "slip_rms", stable}, is_rigid},
       {{"wake_length", "", "wake_length", last}, has_wake},
@@ -101,7 +115,7 @@ const std::vector<BodyDefinition>& body_results() {
 }
 
 struct FlowDefinition : Definition {
-  bool (*applies)(const Case&) = [](const Case&) { return true; };
+  bool (*applies)(const Case&) = [](const Case& c) { return c.has_fluid(); };
 };
 
 const std::vector<FlowDefinition>& flow_results() {
@@ -115,6 +129,13 @@ const std::vector<FlowDefinition>& flow_results() {
   return list;
 }
 
+Definition definition_of(const Probe& probe, const std::string& body) {
+  static const std::map<std::string, Number (*)(const Column&, const Column&, const Case&)> statistics{
+      {"last", last}, {"peak", peak}, {"stable", stable}, {"period", period}};
+  const std::string unit = probe.statistic == "period" ? "s" : unit_of(probe);
+  return {probe.name, unit == "1" ? "" : unit, body + "." + probe.name, statistics.at(probe.statistic)};
+}
+
 /// The results that a case has, each with the full name of its column.
 std::vector<Definition> results_of(const Case& c) {
   std::vector<Definition> list;
@@ -123,6 +144,9 @@ std::vector<Definition> results_of(const Case& c) {
     if (!body || !d.applies(*body)) continue;
     d.column = body->name + "." + d.column;
     list.push_back(d);
+  }
+  if (body) {
+    for (const Probe& p : probes_of(*body)) list.push_back(definition_of(p, body->name));
   }
   for (const FlowDefinition& d : flow_results()) {
     if (d.applies(c)) list.push_back(d);

@@ -62,9 +62,9 @@ CoupledRigidBody::CoupledRigidBody(const Case& c, const Body& body, const amr::F
       body_(forest, rigid(body).shape, rigid(body).motion, rigid(body).coupling),
       flow_direction_(flow_direction(c)) {}
 
-BodyRow CoupledRigidBody::measure(const fluid::FluidSolver& fluid) {
-  const ib::Pose pose = body_.motion().pose(fluid.time());
-  const ib::Slip slip = body_.slip(fluid.fine_velocity());
+BodyRow CoupledRigidBody::measure(const fluid::FluidSolver* fluid) {
+  const ib::Pose pose = body_.motion().pose(fluid->time());
+  const ib::Slip slip = body_.slip(fluid->fine_velocity());
   const ib::Load load = body_.take_mean_load();
   BodyRow row;
   row.force = load.force;
@@ -72,7 +72,7 @@ BodyRow CoupledRigidBody::measure(const fluid::FluidSolver& fluid) {
   row.centre = pose(body_.surface().enclosed.centre);
   row.slip_rms = slip.rms;
   row.slip_max = slip.max;
-  if (has_wake(description)) row.wake_length = wake_length(fluid);
+  if (has_wake(description)) row.wake_length = wake_length(*fluid);
   return row;
 }
 

@@ -18,7 +18,8 @@ class CoupledRigidBody : public CoupledBody {
   CoupledRigidBody(const Case& c, const Body& body, const amr::Forest& forest);
 
   void on_fine_step(fluid::FineStep& step) override { body_.on_fine_step(step); }
-  BodyRow measure(const fluid::FluidSolver& fluid) override;
+  BodyRow measure(const fluid::FluidSolver* fluid) override;
+  void step_alone(double, double) override {}  // of no interest: the case reader wants a fluid
   void write(const std::filesystem::path& file, double time) const override;
   std::string report(const Case& c) const override;
   void transfer_state(Archive& archive) override { archive.transfer("motion", body_); }

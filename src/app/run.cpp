@@ -34,12 +34,17 @@ std::int64_t peak_rss_bytes() {
 }
 
 void announce(const Case& c, const Simulation& simulation, const fs::path& folder, Log& log) {
-  const amr::Forest& forest = simulation.fluid().forest();
+  log.info("{}", c.title.empty() ? c.name : c.title);
+  if (!simulation.fluid()) {
+    log.info("structures alone, steps of {:.4g} s, {} threads; writing to {}", simulation.time_step(),
+             omp_get_max_threads(), folder.string());
+    return;
+  }
+  const amr::Forest& forest = simulation.fluid()->forest();
   std::int64_t cells = 0;
   for (int level = 0; level < forest.levels(); ++level) cells += forest.cells(level);
-  log.info("{}", c.title.empty() ? c.name : c.title);
   log.info("{:.2f} million cells on {} levels, steps of {:.4g} s, {} threads; writing to {}",
-           1e-6 * static_cast<double>(cells), forest.levels(), simulation.fluid().coarse_dt(), omp_get_max_threads(),
+           1e-6 * static_cast<double>(cells), forest.levels(), simulation.time_step(), omp_get_max_threads(),
            folder.string());
 }
 
@@ -68,7 +73,7 @@ void open_run(bool resume, const Case& c, const fs::path& folder, Simulation& si
 /// Steps until `end` [s]; false if interrupted.
 bool step_until(double end, Simulation& simulation, Recorder& recorder, Checkpoints& checkpoints, Progress& progress,
                 const Interrupt& interrupt) {
-  const double last = end - 1e-6 * simulation.fluid().coarse_dt();
+  const double last = end - 1e-6 * simulation.time_step();
   const auto write_checkpoint = [&] {
     progress.clear();
     checkpoints.write();
@@ -85,7 +90,6 @@ bool step_until(double end, Simulation& simulation, Recorder& recorder, Checkpoi
 
 Summary summarise_run(const Case& c, const Simulation& simulation, const Recorder& recorder, double output_seconds,
                       double wall_seconds) {
-  const amr::Forest& forest = simulation.fluid().forest();
   Summary s;
   s.case_name = c.name;
   s.title = c.title;
@@ -94,11 +98,14 @@ Summary summarise_run(const Case& c, const Simulation& simulation, const Recorde
   s.threads = omp_get_max_threads();
   s.t_end = simulation.time();
   s.wall_seconds = wall_seconds;
-  s.cell_updates = simulation.fluid().statistics().cell_updates;
   const double stepping = simulation.step_seconds(), coupling = simulation.coupling_seconds();
+  if (const fluid::FluidSolver* fluid = simulation.fluid()) {
+    s.cell_updates = fluid->statistics().cell_updates;
+    const amr::Forest& forest = fluid->forest();
+    for (int level = 0; level < forest.levels(); ++level) s.cells_per_level.push_back(forest.cells(level));
+  }
   s.mlups = stepping > 0.0 ? 1e-6 * static_cast<double>(s.cell_updates) / stepping : 0.0;
   s.peak_rss_bytes = peak_rss_bytes();
-  for (int level = 0; level < forest.levels(); ++level) s.cells_per_level.push_back(forest.cells(level));
   const double structure = simulation.structure_seconds();
   s.time_share = {{"fluid", (stepping - coupling) / wall_seconds},
                   {"ib", (coupling - structure) / wall_seconds},

@@ -1,48 +1,17 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/scene.hpp"
 
-#include <fmt/format.h>
-
 #include <string>
 #include <utility>
 
 #include "app/case_checks.hpp"
 #include "app/elastic_body.hpp"
+#include "app/mesh_reader.hpp"
 #include "app/rigid_body.hpp"
-#include "core/process.hpp"
 
 namespace drogue::app {
 
-namespace {
-
-namespace fs = std::filesystem;
-
-fs::path generate_mesh(const Case& c, const Body& body, const fs::path& geometry, const fs::path& folder) {
-  const std::string key = fmt::format("body.{}.mesh", body.name);
-  fs::create_directories(folder);
-  const fs::path mesh = folder / fmt::format("{}.msh", body.name), log = folder / fmt::format("{}.gmsh.log", body.name);
-  const int status = run_program({"gmsh", "-3", "-format", "msh41", "-o", mesh.string(), geometry.string()}, log);
-  if (status == not_installed) {
-    fail(
-        c, key,
-        fmt::format("= \"{}\" needs gmsh, which is not installed; on Debian: apt-get install gmsh", geometry.string()));
-  }
-  if (status != 0 || !fs::exists(mesh)) {
-    fail(c, key, fmt::format("= \"{}\" could not be meshed by gmsh; see {}", geometry.string(), log.string()));
-  }
-  return mesh;
-}
-
-fem::HexMesh load_mesh(const Case& c, const Body& body, const fs::path& folder) {
-  const auto& mesh = std::get<ElasticBody>(body.kind).mesh;
-  if (const auto* plate = std::get_if<fem::PlateDescription>(&mesh)) return fem::make_plate(*plate);
-  const auto& file = std::get<fs::path>(mesh);
-  return fem::read_msh(file.extension() == ".geo" ? generate_mesh(c, body, file, folder) : file);
-}
-
-}  // namespace
-
-Meshes load_meshes(const Case& c, const fs::path& folder) {
+Meshes load_meshes(const Case& c, const std::filesystem::path& folder) {
   Meshes meshes;
   for (const Body& body : c.bodies) {
     if (is_elastic(body)) meshes.emplace(body.name, load_mesh(c, body, folder));
@@ -68,11 +37,11 @@ amr::Forest make_forest(const Case& c, const Meshes& meshes) {
   return forest;
 }
 
-std::vector<std::unique_ptr<CoupledBody>> make_bodies(const Case& c, const Meshes& meshes, const amr::Forest& forest) {
+std::vector<std::unique_ptr<CoupledBody>> make_bodies(const Case& c, const Meshes& meshes, const amr::Forest* forest) {
   std::vector<std::unique_ptr<CoupledBody>> bodies;
   for (const Body& body : c.bodies) {
     if (is_rigid(body)) {
-      bodies.push_back(std::make_unique<CoupledRigidBody>(c, body, forest));
+      bodies.push_back(std::make_unique<CoupledRigidBody>(c, body, *forest));
     } else {
       bodies.push_back(std::make_unique<CoupledElasticBody>(c, body, meshes.at(body.name), forest));
     }

@@ -11,12 +11,12 @@
 #include "amr/forest.hpp"
 #include "app/case.hpp"
 #include "app/coupled_body.hpp"
-#include "fem/hex_mesh.hpp"
+#include "fem/mesh.hpp"
 
 namespace drogue::app {
 
 /// Of the elastic bodies, by name.
-using Meshes = std::map<std::string, fem::HexMesh>;
+using Meshes = std::map<std::string, fem::Mesh>;
 
 /// A `.geo` file is meshed by gmsh into `folder`. Throws InputError.
 Meshes load_meshes(const Case& c, const std::filesystem::path& folder);
@@ -24,7 +24,8 @@ Meshes load_meshes(const Case& c, const std::filesystem::path& folder);
 /// The grid of a case. Throws InputError if a body does not lie in its finest cells, wherever it moves as prescribed.
 amr::Forest make_forest(const Case& c, const Meshes& meshes);
 
-/// In the order of the case; `forest` outlives them. Throws InputError for a mesh or values that cannot be run.
-std::vector<std::unique_ptr<CoupledBody>> make_bodies(const Case& c, const Meshes& meshes, const amr::Forest& forest);
+/// In the order of the case; `forest`, null without a fluid, outlives them. Throws InputError for a mesh or values that
+/// cannot be run.
+std::vector<std::unique_ptr<CoupledBody>> make_bodies(const Case& c, const Meshes& meshes, const amr::Forest* forest);
 
 }  // namespace drogue::app

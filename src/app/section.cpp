@@ -202,6 +202,8 @@ template int Section::get(const std::string&, const Key<int>&);
 template double Section::get(const std::string&, const Key<double>&);
 template Pair Section::get(const std::string&, const Key<Pair>&);
 template Vec3 Section::get(const std::string&, const Key<Vec3>&);
+template Index2 Section::get(const std::string&, const Key<Index2>&);
+template Corners Section::get(const std::string&, const Key<Corners>&);
 template Index3 Section::get(const std::string&, const Key<Index3>&);
 template Formulas Section::get(const std::string&, const Key<Formulas>&);
 template Expression Section::get(const std::string&, const Key<Expression>&);

@@ -23,10 +23,10 @@ class Simulation::TimedHook : public fluid::FineStepHook {
   Stopwatch watch_;
 };
 
-Simulation::Simulation(const Case& c, const std::filesystem::path& folder) {
+Simulation::Simulation(const Case& c, const std::filesystem::path& folder) : case_(c) {
   const Meshes meshes = load_meshes(c, folder);
-  fluid_ = lbm::make_solver(make_forest(c, meshes), c.fluid);
-  bodies_ = make_bodies(c, meshes, fluid_->forest());
+  if (c.has_fluid()) fluid_ = lbm::make_solver(make_forest(c, meshes), c.fluid);
+  bodies_ = make_bodies(c, meshes, fluid_ ? &fluid_->forest() : nullptr);
   hook_ = std::make_unique<TimedHook>(bodies_);
 }
 
@@ -34,11 +34,20 @@ Simulation::~Simulation() = default;
 
 void Simulation::step() {
   const Timed timed(stepping_);
-  fluid_->step(bodies_.empty() ? nullptr : hook_.get());
+  if (fluid_) {
+    fluid_->step(bodies_.empty() ? nullptr : hook_.get());
+    return;
+  }
+  for (auto& body : bodies_) body->step_alone(time(), time_step());
+  ++steps_;
 }
 
+double Simulation::time() const { return fluid_ ? fluid_->time() : steps_ * case_.structure.step; }
+double Simulation::time_step() const { return fluid_ ? fluid_->coarse_dt() : case_.structure.step; }
+
 void Simulation::transfer_state(Archive& archive) {
-  archive.transfer("fluid", *fluid_);
+  if (fluid_) archive.transfer("fluid", *fluid_);
+  archive.transfer("steps", steps_);
   for (auto& body : bodies_) archive.transfer("body_" + body->description.name, *body);
   archive.transfer("hook", *hook_);
   archive.transfer("time_spent", stepping_);
@@ -50,6 +59,6 @@ double Simulation::structure_seconds() const {
   return seconds;
 }
 
-double Simulation::coupling_seconds() const { return hook_->seconds(); }
+double Simulation::coupling_seconds() const { return fluid_ ? hook_->seconds() : structure_seconds(); }
 
 }  // namespace drogue::app

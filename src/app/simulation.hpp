@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Fluid and bodies of a case, stepped together.
+// Fluid and bodies of a case, stepped together, or bodies without a fluid.
 #pragma once
 
 #include <filesystem>
@@ -15,15 +15,16 @@ namespace drogue::app {
 
 class Simulation {
  public:
-  /// Builds grid, fluid and bodies; a mesh that must be generated goes to `folder`. Throws InputError.
+  /// `c` outlives it. Builds grid, fluid and bodies; a mesh that must be generated goes to `folder`. Throws InputError.
   Simulation(const Case& c, const std::filesystem::path& folder);
   ~Simulation();
 
-  /// One coarse step. Throws Diverged, and InputError for a body that left the fine grid.
+  /// One coarse step, or one of the structures. Throws Diverged, and InputError for a body that left the fine grid.
   void step();
 
-  double time() const { return fluid_->time(); }  ///< [s]
-  const fluid::FluidSolver& fluid() const { return *fluid_; }
+  double time() const;                                              ///< [s]
+  double time_step() const;                                         ///< [s]
+  const fluid::FluidSolver* fluid() const { return fluid_.get(); }  ///< null without one
   const std::vector<std::unique_ptr<CoupledBody>>& bodies() const { return bodies_; }
 
   /// Saves or restores the state between two steps. Throws as Archive does.
@@ -37,9 +38,11 @@ class Simulation {
  private:
   class TimedHook;
 
+  const Case& case_;
   std::unique_ptr<fluid::FluidSolver> fluid_;
   std::vector<std::unique_ptr<CoupledBody>> bodies_;
   std::unique_ptr<TimedHook> hook_;
+  int steps_ = 0;  // without a fluid
   Stopwatch stepping_;
 };
 

@@ -31,8 +31,9 @@ void Snapshots::start() {
   frames_ << "kind,index,time [s],file\n" << std::flush;
 }
 
-void Snapshots::resume(const fluid::FluidSolver& fluid, const std::vector<std::unique_ptr<CoupledBody>>& bodies) {
-  const double time = fluid.time(), dt = fluid.coarse_dt();
+void Snapshots::resume(const Simulation& simulation) {
+  const auto& bodies = simulation.bodies();
+  const double time = simulation.time(), dt = simulation.time_step();
   io::cut_series(folder_ / fluid_series, time);
   for (const auto& body : bodies) io::cut_series(folder_ / series_of(kind_of(*body, bodies.size())), time);
   keep_lines(folder_ / "frames.csv", 1 + listed_);
@@ -47,10 +48,10 @@ void Snapshots::transfer_state(Archive& archive) {
   archive.transfer("listed", listed_);
 }
 
-void Snapshots::write_due(const fluid::FluidSolver& fluid, const std::vector<std::unique_ptr<CoupledBody>>& bodies) {
-  const double time = fluid.time(), dt = fluid.coarse_dt();
-  if (fluid_due_.due(time, dt)) write_fluid(fluid);
-  if (!bodies.empty() && canopy_due_.due(time, dt)) write_bodies(time, bodies);
+void Snapshots::write_due(const Simulation& simulation) {
+  const double time = simulation.time(), dt = simulation.time_step();
+  if (simulation.fluid() && fluid_due_.due(time, dt)) write_fluid(*simulation.fluid());
+  if (!simulation.bodies().empty() && canopy_due_.due(time, dt)) write_bodies(time, simulation.bodies());
 }
 
 void Snapshots::write_fluid(const fluid::FluidSolver& fluid) {

@@ -9,9 +9,8 @@
 #include <vector>
 
 #include "app/case.hpp"
-#include "app/coupled_body.hpp"
 #include "app/schedule.hpp"
-#include "fluid/fluid_solver.hpp"
+#include "app/simulation.hpp"
 
 namespace drogue::app {
 
@@ -22,9 +21,9 @@ class Snapshots {
 
   void start();
   /// Goes on after the state that was restored: what was written later is removed.
-  void resume(const fluid::FluidSolver& fluid, const std::vector<std::unique_ptr<CoupledBody>>& bodies);
+  void resume(const Simulation& simulation);
   /// Writes what is due.
-  void write_due(const fluid::FluidSolver& fluid, const std::vector<std::unique_ptr<CoupledBody>>& bodies);
+  void write_due(const Simulation& simulation);
 
   void transfer_state(Archive& archive);
 

@@ -94,6 +94,11 @@ RunNumbers read_numbers(const std::filesystem::path& file) {
 void print_summary(const Summary& s, Log& log) {
   const std::int64_t cells = std::accumulate(s.cells_per_level.begin(), s.cells_per_level.end(), std::int64_t{0});
   log.info("");
+  if (cells == 0) {
+    log.info("{:.4g} s in {:.1f} s, {:.2f} GiB", s.t_end, s.wall_seconds,
+             static_cast<double>(s.peak_rss_bytes) / std::pow(1024.0, 3));
+    return;
+  }
   log.info("{:.4g} s of flow in {:.1f} s: {:.2f} million cells, {:.4g} updates, {:.0f} MLUPS, {:.2f} GiB", s.t_end,
            s.wall_seconds, 1e-6 * static_cast<double>(cells), static_cast<double>(s.cell_updates), s.mlups,
            static_cast<double>(s.peak_rss_bytes) / std::pow(1024.0, 3));

@@ -87,6 +87,14 @@ void read_value(const toml::node& node, Vec3& value) {
   });
 }
 
+void read_value(const toml::node& node, Index2& value) {
+  read_elements(node, 2, [&](const toml::node& element, std::size_t i) { read_value(element, value[i]); });
+}
+
+void read_value(const toml::node& node, Corners& value) {
+  read_elements(node, 4, [&](const toml::node& element, std::size_t i) { read_value(element, value[i]); });
+}
+
 void read_value(const toml::node& node, Index3& value) {
   read_elements(node, 3, [&](const toml::node& element, std::size_t i) { read_value(element, value[i]); });
 }
@@ -126,6 +134,10 @@ std::string write_value(int value) { return fmt::format("{}", value); }
 std::string write_value(double value) { return fmt::format("{}", value); }
 std::string write_value(const Pair& v) { return fmt::format("[{}, {}]", v[0], v[1]); }
 std::string write_value(const Vec3& v) { return fmt::format("[{}, {}, {}]", v[0], v[1], v[2]); }
+std::string write_value(const Index2& v) { return fmt::format("[{}, {}]", v[0], v[1]); }
+std::string write_value(const Corners& v) {
+  return fmt::format("[{}, {}, {}, {}]", write_value(v[0]), write_value(v[1]), write_value(v[2]), write_value(v[3]));
+}
 std::string write_value(const Index3& v) { return fmt::format("[{}, {}, {}]", v[0], v[1], v[2]); }
 std::string write_value(const Box& box) {
   return fmt::format("[{}, {}]", write_value(box.lower), write_value(box.upper));

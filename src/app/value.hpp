@@ -15,6 +15,8 @@
 namespace drogue::app {
 
 using Pair = std::array<double, 2>;
+using Index2 = std::array<int, 2>;
+using Corners = std::array<Vec3, 4>;
 using Formulas = std::array<Expression, 3>;
 
 /// Converts a node; throws InputError "<value> <what is wrong with it>".
@@ -23,7 +25,9 @@ void read_value(const toml::node& node, int& value);
 void read_value(const toml::node& node, double& value);
 void read_value(const toml::node& node, Pair& value);
 void read_value(const toml::node& node, Vec3& value);
+void read_value(const toml::node& node, Index2& value);
 void read_value(const toml::node& node, Index3& value);
+void read_value(const toml::node& node, Corners& value);
 void read_value(const toml::node& node, Box& value);
 void read_value(const toml::node& node, Expression& value);
 void read_value(const toml::node& node, Formulas& value);
@@ -36,7 +40,9 @@ std::string write_value(int value);
 std::string write_value(double value);
 std::string write_value(const Pair& value);
 std::string write_value(const Vec3& value);
+std::string write_value(const Index2& value);
 std::string write_value(const Index3& value);
+std::string write_value(const Corners& value);
 std::string write_value(const Box& value);
 std::string write_value(const Expression& value);
 std::string write_value(const Formulas& value);
@@ -57,7 +63,11 @@ inline constexpr const char* expected<Pair> = "two numbers";
 template <>
 inline constexpr const char* expected<Vec3> = "three numbers";
 template <>
+inline constexpr const char* expected<Index2> = "two integers";
+template <>
 inline constexpr const char* expected<Index3> = "three integers";
+template <>
+inline constexpr const char* expected<Corners> = "four corners [[x, y, z], ...]";
 template <>
 inline constexpr const char* expected<Box> = "two corners [[x, y, z], [x, y, z]]";
 template <>
@@ -78,6 +88,7 @@ inline std::vector<double> numbers(int value) { return {static_cast<double>(valu
 inline std::vector<double> numbers(double value) { return {value}; }
 inline std::vector<double> numbers(const Pair& v) { return {v[0], v[1]}; }
 inline std::vector<double> numbers(const Vec3& v) { return {v[0], v[1], v[2]}; }
+inline std::vector<double> numbers(const Index2& v) { return {1.0 * v[0], 1.0 * v[1]}; }
 inline std::vector<double> numbers(const Index3& v) { return {1.0 * v[0], 1.0 * v[1], 1.0 * v[2]}; }
 
 }  // namespace drogue::app

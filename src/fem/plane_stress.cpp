@@ -44,9 +44,10 @@ double plane_stress_thickness(const Material& material, double a, double b) {
   return std::visit(solve, material);
 }
 
-SheetStretch sheet_stretch(const HexMesh& mesh, int element, int thickness, std::span<const Vec3> x) {
-  const Mat3 reference = edges(mesh.elements[element], thickness, mesh.nodes);
-  const Mat3 f = edges(mesh.elements[element], thickness, x) * reference.inverse();
+SheetStretch sheet_stretch(const std::array<int, 8>& element, int thickness, std::span<const Vec3> reference_position,
+                           std::span<const Vec3> x) {
+  const Mat3 reference = edges(element, thickness, reference_position);
+  const Mat3 f = edges(element, thickness, x) * reference.inverse();
   Mat3 frame;  // of the undeformed mid-surface, its normal last
   frame.col(2) = reference.col(0).cross(reference.col(1)).normalized();
   frame.col(0) = reference.col(0).normalized();

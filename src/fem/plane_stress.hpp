@@ -5,7 +5,7 @@
 #include <array>
 #include <span>
 
-#include "fem/hex_mesh.hpp"
+#include "core/types.hpp"
 #include "fem/material.hpp"
 
 namespace drogue::fem {
@@ -20,6 +20,7 @@ struct SheetStretch {
   double thickness;                ///< across the deformed sheet
   std::array<double, 2> in_plane;  ///< principal
 };
-SheetStretch sheet_stretch(const HexMesh& mesh, int element, int thickness, std::span<const Vec3> x);
+SheetStretch sheet_stretch(const std::array<int, 8>& element, int thickness, std::span<const Vec3> reference,
+                           std::span<const Vec3> x);
 
 }  // namespace drogue::fem

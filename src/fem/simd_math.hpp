@@ -7,6 +7,7 @@
 #pragma once
 
 #include <bit>
+#include <cmath>
 #include <cstdint>
 
 namespace drogue::fem {
@@ -65,6 +66,22 @@ inline T splat(double value) {
 template <class T>
 inline T larger(const T& a, const T& b) {
   return a > b ? a : b;
+}
+
+inline double square_root(double x) { return std::sqrt(x); }
+inline Pack square_root(const Pack& x) {
+  Pack root;
+  for (int lane = 0; lane < lanes; ++lane) root[lane] = std::sqrt(x[lane]);
+  return root;
+}
+
+/// Whether a correction by Newton's method of a number of order one, in every lane, no longer matters. So does one that
+/// is no number.
+inline bool is_negligible(double change) { return !(std::abs(change) > 1e-13); }
+inline bool is_negligible(const Pack& change) {
+  bool all = true;
+  for (int lane = 0; lane < lanes; ++lane) all &= is_negligible(change[lane]);
+  return all;
 }
 
 /// Natural logarithm: x = 2^e m with m in [sqrt(1/2), sqrt(2)), ln m = 2 atanh((m - 1) / (m + 1)).

@@ -16,13 +16,7 @@ namespace drogue::fem {
 namespace {
 
 StructureOptions checked(const StructureOptions& options) {
-  const auto& [density, dissipation, safety, ratio] = options;
-  if (!(density > 0.0 && std::isfinite(density))) {
-    throw InputError(
-        fmt::format("the structure's density is {} kg/m^3; expected a positive number (of a massless solid: that of "
-                    "what surrounds it)",
-                    density));
-  }
+  const auto& [dissipation, safety, ratio] = options;
   // From 0.5 on a stiff tether would be unstable.
   if (!(dissipation >= 0.0 && dissipation < 0.5)) {
     throw InputError(
@@ -39,8 +33,13 @@ StructureOptions checked(const StructureOptions& options) {
   return options;
 }
 
-std::vector<const Hold*> hold_of_each_node(const std::vector<Hold>& holds, std::size_t nodes) {
-  std::vector<const Hold*> of_node(nodes, nullptr);
+void expect_node(const char* what, int node, std::size_t nodes) {
+  if (node >= 0 && static_cast<std::size_t>(node) < nodes) return;
+  throw InputError(fmt::format("{} names node {}; expected 0 to {}", what, node, nodes - 1));
+}
+
+std::vector<std::array<const Hold*, 3>> hold_of_each_node(const std::vector<Hold>& holds, std::size_t nodes) {
+  std::vector<std::array<const Hold*, 3>> of_node(nodes, {nullptr, nullptr, nullptr});
   for (const Hold& hold : holds) {
     if (!(hold.stiffness >= 0.0 && hold.damping >= 0.0)) {
       throw InputError(
@@ -48,33 +47,43 @@ std::vector<const Hold*> hold_of_each_node(const std::vector<Hold>& holds, std::
                       hold.stiffness, hold.damping));
     }
     for (const int node : hold.nodes) {
-      if (node < 0 || static_cast<std::size_t>(node) >= nodes) {
-        throw InputError(fmt::format("a hold names node {}; expected 0 to {}", node, nodes - 1));
+      expect_node("a hold", node, nodes);
+      for (int axis = 0; axis < 3; ++axis) {
+        if (!hold.axes[axis]) continue;
+        const Hold*& held_by = of_node[node][axis];
+        const bool alike = held_by && held_by->stands_still() && hold.stands_still();
+        if (held_by != nullptr && held_by != &hold && !alike) {
+          throw InputError(
+              fmt::format("node {} belongs to two holds along {}; expected at most one", node, "xyz"[axis]));
+        }
+        held_by = &hold;
       }
-      if (of_node[node] != nullptr && of_node[node] != &hold) {
-        throw InputError(fmt::format("node {} belongs to two holds; expected at most one", node));
-      }
-      of_node[node] = &hold;
     }
   }
   return of_node;
 }
 
-std::vector<double> scaled(std::vector<double> values, double factor) {
-  for (double& value : values) value *= factor;
-  return values;
+std::vector<double> with_point_masses(std::vector<double> mass, const std::vector<PointMass>& points) {
+  for (const auto& [node, extra] : points) {
+    expect_node("a point mass", node, mass.size());
+    if (!(extra >= 0.0 && std::isfinite(extra))) {
+      throw InputError(fmt::format("the point mass of node {} is {} kg; expected no negative number", node, extra));
+    }
+    mass[node] += extra;
+  }
+  return mass;
 }
 
 Inertia every_node_alone(const std::vector<double>& own_mass) {
-  Inertia inertia{{}, own_mass};
+  Inertia inertia{{}, own_mass, own_mass};
   for (int node = 0; node < static_cast<int>(own_mass.size()); ++node) inertia.point.push_back({node, -1});
   return inertia;
 }
 
 void check_partition(const Inertia& inertia, std::size_t nodes) {
-  if (inertia.mass.size() != inertia.point.size()) {
-    throw InputError(fmt::format("the inertia has {} points and {} masses; expected as many", inertia.point.size(),
-                                 inertia.mass.size()));
+  if (inertia.mass.size() != inertia.point.size() || inertia.heavy_mass.size() != inertia.point.size()) {
+    throw InputError(fmt::format("the inertia has {} points and {} masses, {} of them heavy; expected as many",
+                                 inertia.point.size(), inertia.mass.size(), inertia.heavy_mass.size()));
   }
   std::vector<int> uses(nodes, 0);
   for (std::size_t i = 0; i < inertia.point.size(); ++i) {
@@ -99,17 +108,27 @@ void check_partition(const Inertia& inertia, std::size_t nodes) {
 
 }  // namespace
 
-Structure::Data::Data(HexMesh m, const Material& law, const StructureOptions& o, std::vector<Hold> h)
-    : mesh(std::move(m)),
-      material(law),
-      options(checked(o)),
-      holds(std::move(h)),
-      hold_of_node(hold_of_each_node(holds, mesh.nodes.size())),
-      elements(mesh, material, options.volume_ratio),
-      own_mass(scaled(elements.nodal_volume(), options.density)),
+Structure::Data::Data(Model model)
+    : mesh(std::move(model.mesh)),
+      regions(std::move(model.regions)),
+      loads(std::move(model.loads)),
+      options(checked(model.options)),
+      hold_of_node(hold_of_each_node(loads.holds, mesh.nodes.size())),
+      elements(mesh, regions, loads.pressures, options.volume_ratio),
+      own_mass(with_point_masses(elements.nodal_mass(), loads.masses)),
       x(mesh.nodes),
       v(mesh.nodes.size(), Vec3::Zero()),
-      stiffness_bounds(mesh.elements.size()) {
+      hold_displacement(loads.holds.size()) {
+  if (!(loads.damping >= 0.0)) {
+    throw InputError(fmt::format("the structure's damping is {} 1/s; expected no negative number", loads.damping));
+  }
+  for (const Hold& hold : loads.holds) hold_moves.push_back(hold.moves());
+  loads_vary = elements.vary() || std::ranges::find(hold_moves, true) != hold_moves.end() ||
+               std::ranges::any_of(loads.forces, [](const NodeLoad& load) { return vary(load.force); });
+  for (const NodeLoad& load : loads.forces) {
+    for (const int node : load.nodes) expect_node("a load", node, mesh.nodes.size());
+  }
+  set_time(0.0);
   assign_points(every_node_alone(own_mass));
 }
 
@@ -120,21 +139,23 @@ void Structure::Data::assign_points(Inertia new_inertia) {
   for (std::size_t i = 0; i < new_inertia.point.size(); ++i) {
     const auto [a, b] = new_inertia.point[i];
     const double mass = new_inertia.mass[i];
+    const Vec3 weight = new_inertia.heavy_mass[i] * loads.gravity;
     if (b < 0) {
-      new_points.push_back({a, b, 1.0, 0.0, {mass, volume[a]}, {}, hold_of_node[a]});
+      new_points.push_back({a, b, 1.0, 0.0, {mass, own_mass[a], volume[a]}, {}, weight, hold_of_node[a]});
       continue;
     }
     if (hold_of_node[a] != hold_of_node[b]) {
       throw InputError(fmt::format(
           "nodes {} and {} face each other but are not held alike; expected both or neither in a hold", a, b));
     }
-    const double both = volume[a] + volume[b], reduced = volume[a] * volume[b] / both;
+    const double own = own_mass[a] + own_mass[b], reduced = own_mass[a] * own_mass[b] / own;
     new_points.push_back({a,
                           b,
-                          volume[a] / both,
-                          volume[b] / both,
-                          {mass, both},
-                          {options.density * reduced, reduced},
+                          own_mass[a] / own,
+                          own_mass[b] / own,
+                          {mass, own, volume[a] + volume[b]},
+                          {reduced, reduced, volume[a] * volume[b] / (volume[a] + volume[b])},
+                          weight,
                           hold_of_node[a]});
   }
   inertia = std::move(new_inertia);
@@ -144,43 +165,59 @@ void Structure::Data::assign_points(Inertia new_inertia) {
   estimate_largest_frequency();
 }
 
-// An element strains along its thickness by differences of pairs alone, which keep the own mass, and along its sides by
-// means and by differences. These count there at most half as much (the mode xi zeta has a third of the squared
-// gradient of zeta along xi and a third along zeta), so that a mean lightens the sides down to half.
+// The mass that a node has in use is shared among its elements in proportion to their own. A hexahedron strains along
+// its thickness by differences of pairs alone, which keep the own mass, and along its sides by means and by
+// differences. These count there at most half as much (the mode xi zeta has a third of the squared gradient of zeta
+// along xi and a third along zeta), so that a mean lightens the sides down to half.
 void Structure::Data::compare_masses() {
   std::vector<int> partner(mesh.nodes.size(), -1);
   std::vector<double> ratio(mesh.nodes.size());
   for (const Point& p : points) {
-    ratio[p.a] = p.mean.mass / (options.density * p.mean.volume);
+    ratio[p.a] = p.mean.mass / p.mean.own;
     if (!p.is_pair()) continue;
     ratio[p.b] = ratio[p.a];
     partner[p.a] = p.b;
     partner[p.b] = p.a;
   }
-  lightness.clear();
-  thickness_direction.clear();
-  for (const auto& element : mesh.elements) {
-    const auto joins_pair = [&](const auto& edge) { return partner[element[edge[0]]] == element[edge[1]]; };
-    const auto thickness = std::find_if(std::begin(hex_edge), std::end(hex_edge), [&](const auto& edges) {
-      return std::all_of(std::begin(edges), std::end(edges), joins_pair);
-    });
-    const bool thin = thickness != std::end(hex_edge);
-    thickness_direction.push_back(thin ? static_cast<int>(thickness - std::begin(hex_edge)) : -1);
-    double smallest = thin ? 2.0 : INFINITY;
-    for (const int node : element) {
-      smallest = std::min({smallest, ratio[node], thin || partner[node] < 0 ? INFINITY : 1.0});
+  thin_elements.clear();
+  for (const auto& group : elements.groups()) {
+    const auto* solid = std::get_if<Solid>(&group->region().kind);
+    for (int e = 0; e < group->count(); ++e) {
+      const auto nodes = group->nodes_of(e);
+      const auto joins_pair = [&](const auto& edge) { return partner[nodes[edge[0]]] == nodes[edge[1]]; };
+      const auto thickness = std::find_if(std::begin(hex_edge), std::end(hex_edge), [&](const auto& edges) {
+        return solid && std::all_of(std::begin(edges), std::end(edges), joins_pair);
+      });
+      const bool thin = thickness != std::end(hex_edge);
+      double smallest = thin ? 2.0 : INFINITY;
+      for (const int node : nodes) {
+        smallest = std::min({smallest, ratio[node], thin || partner[node] < 0 ? INFINITY : 1.0});
+      }
+      std::array<double, 3> lightness{1.0 / smallest, 1.0 / smallest, 1.0 / smallest};
+      if (thin) {
+        const int direction = static_cast<int>(thickness - std::begin(hex_edge));
+        lightness[direction] = 1.0;
+        auto& added = thin_elements.emplace_back(ThinElement{{}, direction, &solid->material});
+        std::ranges::copy(nodes, added.nodes.begin());
+      }
+      group->set_lightness(e, lightness);
     }
-    lightness.push_back({1.0 / smallest, 1.0 / smallest, 1.0 / smallest});
-    if (thin) lightness.back()[thickness_direction.back()] = 1.0;
   }
 }
 
-Structure::Structure(HexMesh mesh, const Material& material, const StructureOptions& options, std::vector<Hold> holds)
-    : data_(std::make_unique<Data>(std::move(mesh), material, options, std::move(holds))) {}
+Model one_solid(Mesh mesh, const Material& material, double density, std::vector<Hold> holds,
+                const StructureOptions& options) {
+  Model model{.mesh = std::move(mesh), .regions = {{"", density, Solid{material}}}, .loads = {}, .options = options};
+  model.loads.holds = std::move(holds);
+  return model;
+}
+
+Structure::Structure(Model model) : data_(std::make_unique<Data>(std::move(model))) {}
 Structure::~Structure() = default;
 Structure::Structure(Structure&&) noexcept = default;
 
-const HexMesh& Structure::mesh() const { return data_->mesh; }
+const Mesh& Structure::mesh() const { return data_->mesh; }
+int Structure::elements() const { return data_->elements.count(); }
 std::span<const Vec3> Structure::position() const { return data_->x; }
 std::span<const Vec3> Structure::velocity() const { return data_->v; }
 std::span<const double> Structure::own_mass() const { return data_->own_mass; }
@@ -211,17 +248,18 @@ double Structure::largest_frequency() const { return data_->largest_frequency; }
 void Structure::add_hold_force(std::span<const Vec3> position, std::span<const Vec3> velocity,
                                std::span<Vec3> force) const {
   const std::span<const double> volumes = volume();
-  for (const Hold& hold : data_->holds) {
-    if (hold.rigid) continue;
-    for (const int node : hold.nodes) {
-      force[node] +=
-          volumes[node] * (hold.stiffness * (data_->mesh.nodes[node] - position[node]) - hold.damping * velocity[node]);
+  for (std::size_t node = 0; node < force.size(); ++node) {
+    for (int axis = 0; axis < 3; ++axis) {
+      const Hold* hold = data_->hold_of_node[node][axis];
+      if (hold == nullptr || hold->rigid) continue;
+      const double away = data_->mesh.nodes[node][axis] + data_->displacement_of(*hold, axis) - position[node][axis];
+      force[node][axis] += volumes[node] * (hold->stiffness * away - hold->damping * velocity[node][axis]);
     }
   }
 }
 
 bool Structure::is_held_rigidly(int node) const {
-  return data_->hold_of_node[node] && data_->hold_of_node[node]->rigid;
+  return std::ranges::all_of(data_->hold_of_node[node], [](const Hold* hold) { return hold && hold->rigid; });
 }
 
 double Structure::stable_step() const { return data_->stable_step(); }
@@ -229,7 +267,7 @@ double Structure::stable_step() const { return data_->stable_step(); }
 Vec3 Structure::reaction() const { return data_->reaction; }
 
 void Structure::internal_force(std::span<const Vec3> position, std::span<Vec3> force) const {
-  HexElements& elements = data_->elements;
+  Elements& elements = data_->elements;
 #pragma omp parallel num_threads(elements.threads())
   {
     elements.compute_forces(position);
@@ -287,18 +325,16 @@ double Structure::mean_thickness_stretch() const {
 
 std::array<double, 2> Structure::plane_stress_comparison() const {
   double sum = 0.0, squares = 0.0;
-  int elements = 0;
-  for (std::size_t e = 0; e < data_->mesh.elements.size(); ++e) {
-    const int direction = data_->thickness_direction[e];
-    if (direction < 0) continue;
-    const auto [thickness, in_plane] = sheet_stretch(data_->mesh, static_cast<int>(e), direction, data_->x);
-    const double free = plane_stress_thickness(data_->material, in_plane[0], in_plane[1]);
+  const std::size_t elements = data_->thin_elements.size();
+  for (const auto& [nodes, direction, material] : data_->thin_elements) {
+    const auto [thickness, in_plane] = sheet_stretch(nodes, direction, data_->mesh.nodes, data_->x);
+    const double free = plane_stress_thickness(*material, in_plane[0], in_plane[1]);
     sum += free;
     squares += std::pow(thickness / free - 1.0, 2);
-    ++elements;
   }
   if (elements == 0) return {1.0, 0.0};
-  return {sum / elements, std::sqrt(squares / elements)};
+  const auto count = static_cast<double>(elements);
+  return {sum / count, std::sqrt(squares / count)};
 }
 
 }  // namespace drogue::fem

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A hyperelastic body of trilinear hexahedra: total Lagrangian, lumped masses, explicit in time with as many sub-steps
-// as its stable step asks for. SI, double precision. Knows nothing of a fluid; what surrounds it enters as `Inertia`.
+// An elastic body of solids, membranes and cables: total Lagrangian, lumped masses, explicit in time with as many
+// sub-steps as its stable step asks for, or at rest. SI, double precision. Knows nothing of a fluid; what surrounds it
+// enters as `Inertia`.
 #pragma once
 
 #include <array>
@@ -11,19 +12,11 @@
 
 #include "core/archive.hpp"
 #include "core/types.hpp"
-#include "fem/hex_mesh.hpp"
-#include "fem/material.hpp"
+#include "fem/loads.hpp"
+#include "fem/mesh.hpp"
+#include "fem/region.hpp"
 
 namespace drogue::fem {
-
-/// Holds nodes near their reference position: force per reference volume kappa (X - x) - eta v (paper eq. 11), or, if
-/// `rigid`, zero velocity (the limit of large kappa).
-struct Hold {
-  std::vector<int> nodes;
-  bool rigid = false;
-  double stiffness = 0.0;  ///< kappa [N/m^4]
-  double damping = 0.0;    ///< eta [N s/m^4]
-};
 
 /// Points that move as one: a node, or the two nodes of a pair through the thickness of a thin solid. A point's mean
 /// velocity carries `mass`; the difference of a pair keeps the solid's own mass, whatever surrounds it. Means are
@@ -32,27 +25,46 @@ struct Hold {
 struct Inertia {
   std::vector<std::array<int, 2>> point;  ///< {a, -1} or {a, b}; every node in exactly one point
   std::vector<double> mass;               ///< [kg] of the mean motion
+  std::vector<double> heavy_mass;         ///< [kg] on which gravity acts
 };
 
 struct StructureOptions {
-  double density = 0.0;  ///< own mass per reference volume [kg/m^3], positive
   double dissipation =
       0.2;              ///< phi - 1 of the Tchamwa-Wielgosz scheme, in [0, 0.5): damps what a sub-step barely resolves
   double safety = 0.9;  ///< share of the stable step that is used
   std::array<double, 2> volume_ratio{0.05, 20.0};  ///< bounds of J at the Gauss points; beyond them Diverged is thrown
 };
 
+/// Of Structure::relax().
+struct RelaxationOptions {
+  double tolerance = 1e-6;  ///< largest norm of the forces left, over that of the loads and reactions
+  int most_iterations = 200'000;
+};
+
+/// What a structure is made from.
+struct Model {
+  Mesh mesh;
+  std::vector<Region> regions;
+  Loads loads;
+  StructureOptions options;
+};
+
+/// A body whose hexahedra are all of one material, of `density` [kg/m^3].
+Model one_solid(Mesh mesh, const Material& material, double density, std::vector<Hold> holds = {},
+                const StructureOptions& options = {});
+
 class Structure {
  public:
-  /// Throws InputError for inverted elements, unconnected nodes, a node in two holds, or an option out of range.
-  Structure(HexMesh mesh, const Material& material, const StructureOptions& options, std::vector<Hold> holds);
+  /// Throws InputError for what Elements refuses, a node held twice along an axis, or an option out of range.
+  explicit Structure(Model model);
   ~Structure();
   Structure(Structure&&) noexcept;
 
-  const HexMesh& mesh() const;
+  const Mesh& mesh() const;
+  int elements() const;                      ///< number of them, of all regions
   std::span<const Vec3> position() const;    ///< [m] per node
   std::span<const Vec3> velocity() const;    ///< [m/s] per node
-  std::span<const double> own_mass() const;  ///< [kg] per node: density times lumped reference volume
+  std::span<const double> own_mass() const;  ///< [kg] per node: lumped from the elements, and point masses
   std::span<const double> volume() const;    ///< [m^3] lumped reference volume per node
   void set_state(std::span<const Vec3> position, std::span<const Vec3> velocity);
 
@@ -68,6 +80,10 @@ class Structure {
   /// Integrates over `dt` [s] in sub-steps; throws Diverged (naming element, J, place) for a volume ratio out of
   /// bounds.
   void advance(double dt, double time);
+  /// Finds the equilibrium under the loads of `time` [s], from where the structure is, and leaves it there at rest.
+  /// Points, their masses and damping do not matter. Returns the number of iterations; throws Diverged if it is not
+  /// found, or an element is torn.
+  int relax(double time, const RelaxationOptions& options);
   int substeps() const;              ///< taken by the last advance
   double stable_step() const;        ///< [s] longest sub-step of the scheme, safety included, for largest_frequency()
   double largest_frequency() const;  ///< [rad/s] upper estimate from the elements as deformed, behind the sub-step
@@ -76,7 +92,7 @@ class Structure {
   void internal_force(std::span<const Vec3> position, std::span<Vec3> force) const;
   /// Adds the forces of the tethers [N]; rigid holds have none, their nodes must be kept where they are.
   void add_hold_force(std::span<const Vec3> position, std::span<const Vec3> velocity, std::span<Vec3> force) const;
-  bool is_held_rigidly(int node) const;
+  bool is_held_rigidly(int node) const;              ///< along every axis
   Vec3 reaction() const;                             ///< [N] mean force of all holds on the body over the last advance
   double elastic_energy() const;                     ///< [J]
   double kinetic_energy() const;                     ///< [J] with the point and difference masses in use

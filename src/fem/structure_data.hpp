@@ -5,14 +5,15 @@
 
 #include <vector>
 
-#include "fem/hex_elements.hpp"
+#include "fem/elements.hpp"
 #include "fem/structure.hpp"
 
 namespace drogue::fem {
 
-/// Mass that resists in a coordinate, and reference volume by which a tether holds it.
+/// Mass that resists in a coordinate, own mass in it, and reference volume by which a tether holds it.
 struct Inertance {
   double mass;    ///< [kg]
+  double own;     ///< [kg]
   double volume;  ///< [m^3]
 };
 
@@ -20,32 +21,41 @@ struct Point {
   int a, b;  ///< nodes; b is -1 for a single one
   double share_a, share_b;
   Inertance mean, difference;
-  const Hold* hold;  ///< or nullptr
+  Vec3 weight;                      ///< [N]
+  std::array<const Hold*, 3> hold;  ///< along each axis, or nullptr
 
   bool is_pair() const { return b >= 0; }
+  bool is_held() const { return hold[0] || hold[1] || hold[2]; }
   Vec3 mean_of(const std::vector<Vec3>& field) const {
     return is_pair() ? Vec3(share_a * field[a] + share_b * field[b]) : field[a];
   }
 };
 
 struct Structure::Data {
-  Data(HexMesh mesh, const Material& material, const StructureOptions& options, std::vector<Hold> holds);
+  explicit Data(Model model);
 
-  const HexMesh mesh;
-  const Material material;
+  const Mesh mesh;
+  const std::vector<Region> regions;
+  const Loads loads;
   const StructureOptions options;
-  const std::vector<Hold> holds;
-  std::vector<const Hold*> hold_of_node;
-  HexElements elements;
+  std::vector<std::array<const Hold*, 3>> hold_of_node;
+  Elements elements;
   std::vector<double> own_mass;
   std::vector<Vec3> x, v;
 
   Inertia inertia;
   std::vector<Point> points;
-  std::vector<int> thickness_direction;          ///< parent direction along which pairs face each other; -1: none
-  std::vector<std::array<double, 3>> lightness;  ///< of each element and parent direction: own mass over mass in use
-  std::vector<double> stiffness_bounds;          ///< of each element, as deformed [Pa/m^2]
-  std::vector<Vec3> hold_impulse;                ///< of each point in the last advance [N s]
+  struct ThinElement {
+    std::array<int, 8> nodes;
+    int direction;  ///< parent direction along which pairs face each other
+    const Material* material;
+  };
+  std::vector<ThinElement> thin_elements;
+  std::vector<Vec3> hold_impulse;       ///< of each point in the last advance [N s]
+  std::vector<Vec3> dead_load;          ///< of each node now [N]; empty without any
+  std::vector<bool> hold_moves;         ///< of each hold
+  bool loads_vary = false;              ///< with time
+  std::vector<Vec3> hold_displacement;  ///< of each hold now [m]
 
   double largest_frequency = 0.0;
   int substeps = 0;
@@ -57,7 +67,23 @@ struct Structure::Data {
   double stable_step() const;
   int substeps_for(double dt) const;
   void stop_rigidly_held();
+  void set_time(double time);
+  /// Of elements, pressure and dead loads, without the weight [N].
+  Vec3 nodal_force(int node) const {
+    return dead_load.empty() ? elements.nodal_force(node) : Vec3(elements.nodal_force(node) + dead_load[node]);
+  }
+  double displacement_of(const Hold& hold, int axis) const {
+    return hold_displacement[&hold - loads.holds.data()][axis];
+  }
   void move(std::size_t point, double dt);
+  struct Balance {
+    std::vector<Vec3> left;  ///< of each node [N]
+    Vec3 reaction;           ///< of all holds on the body [N]
+    double scale;            ///< norm of all loads and reactions [N]
+  };
+  Balance balance();
+  void move_rigidly_held();
+  std::vector<double> fictitious_masses(const std::vector<double>& least_stiffness);
   [[noreturn]] void report_divergence(double time) const;
 };
 

@@ -22,61 +22,94 @@
 namespace drogue::fem {
 namespace {
 
-/// Change of the velocity `v` of a held coordinate at `x`, with reference `reference`, under the elastic force `f`.
-Vec3 held_velocity_change(const Hold& hold, const Inertance& inertance, const Vec3& f, const Vec3& x,
-                          const Vec3& reference, const Vec3& v, double dt) {
-  if (hold.rigid) return Vec3::Zero();
-  const double kick = dt / inertance.mass, stiffness = hold.stiffness * inertance.volume;
-  const double resistance = 1.0 + kick * (hold.damping * inertance.volume + dt * stiffness);
-  return (v + kick * (f + stiffness * (reference - x))) / resistance - v;
+/// Change of the velocity `v` of a coordinate under the force `f`, a damper and a spring `away` from its rest.
+double damped_change(double kick, double f, double damping, double stiffness, double away, double v, double dt) {
+  return (v + kick * (f + stiffness * away)) / (1.0 + kick * (damping + dt * stiffness)) - v;
 }
 
 }  // namespace
 
 void Structure::Data::move(std::size_t i, double dt) {
   const Point& p = points[i];
-  // `of` takes the coordinate out of a nodal field.
-  const auto velocity_change = [&](const Inertance& inertance, const Vec3& f, const auto& of) -> Vec3 {
-    if (p.hold == nullptr) return dt / inertance.mass * f;
-    return held_velocity_change(*p.hold, inertance, f, of(x), of(mesh.nodes), of(v), dt);
+  // `of` takes the coordinate out of a nodal field; `follows` tells whether it moves with its hold.
+  const auto velocity_change = [&](const Inertance& inertance, const Vec3& f, bool follows, const auto& of) -> Vec3 {
+    const double kick = dt / inertance.mass, damping = loads.damping * inertance.own;
+    Vec3 dv = kick * f;
+    if (!p.is_held() && damping == 0.0) return dv;
+    const Vec3 position = of(x), reference = of(mesh.nodes), velocity = of(v);
+    for (int axis = 0; axis < 3; ++axis) {
+      const Hold* hold = p.hold[axis];
+      const double target = reference[axis] + (hold && follows ? displacement_of(*hold, axis) : 0.0);
+      if (hold == nullptr) {
+        dv[axis] = damped_change(kick, f[axis], damping, 0.0, 0.0, velocity[axis], dt);
+      } else if (!hold->rigid) {
+        dv[axis] = damped_change(kick, f[axis], damping + hold->damping * inertance.volume,
+                                 hold->stiffness * inertance.volume, target - position[axis], velocity[axis], dt);
+      } else if (hold_moves[hold - loads.holds.data()] && follows) {  // to the target, by what move_node() does
+        dv[axis] = ((target - position[axis]) / dt - velocity[axis]) / (1.0 + options.dissipation);
+      } else {
+        dv[axis] = 0.0;
+      }
+    }
+    return dv;
   };
   const auto move_node = [&](int node, const Vec3& dv) {
     x[node] += dt * (v[node] + (1.0 + options.dissipation) * dv);
     v[node] += dv;
   };
   const auto mean_of = [&p](const std::vector<Vec3>& field) { return p.mean_of(field); };
-  Vec3 force = elements.nodal_force(p.a), dv;
+  Vec3 force = nodal_force(p.a), dv;
   if (p.is_pair()) {
-    const Vec3 force_b = elements.nodal_force(p.b);
-    const Vec3 dv_difference = velocity_change(p.difference, p.share_b * force - p.share_a * force_b,
+    const Vec3 force_b = nodal_force(p.b);
+    const Vec3 dv_difference = velocity_change(p.difference, p.share_b * force - p.share_a * force_b, false,
                                                [&p](const auto& field) -> Vec3 { return field[p.a] - field[p.b]; });
     force += force_b;
-    dv = velocity_change(p.mean, force, mean_of);
+    force += p.weight;
+    dv = velocity_change(p.mean, force, true, mean_of);
     move_node(p.a, dv + p.share_b * dv_difference);
     move_node(p.b, dv - p.share_a * dv_difference);
   } else {
-    dv = velocity_change(p.mean, force, mean_of);
+    force += p.weight;
+    dv = velocity_change(p.mean, force, true, mean_of);
     move_node(p.a, dv);
   }
-  if (p.hold != nullptr) hold_impulse[i] += p.mean.mass * dv - dt * force;
+  if (!p.is_held()) return;
+  const Vec3 impulse = p.mean.mass * dv - dt * (force - loads.damping * p.mean.own * p.mean_of(v));
+  for (int axis = 0; axis < 3; ++axis) {
+    if (p.hold[axis]) hold_impulse[i][axis] += impulse[axis];
+  }
 }
 
+/// Rigidly held coordinates that do not move by themselves stand still from now on.
 void Structure::Data::stop_rigidly_held() {
   for (std::size_t i = 0; i < points.size(); ++i) {
     const Point& p = points[i];
     hold_impulse[i].setZero();
-    if (p.hold == nullptr || !p.hold->rigid) continue;
-    hold_impulse[i] = -p.mean.mass * p.mean_of(v);
-    v[p.a].setZero();
-    if (p.is_pair()) v[p.b].setZero();
+    for (int axis = 0; axis < 3; ++axis) {
+      const Hold* hold = p.hold[axis];
+      if (hold == nullptr || !hold->rigid || hold_moves[hold - loads.holds.data()]) continue;
+      hold_impulse[i][axis] = -p.mean.mass * p.mean_of(v)[axis];
+      v[p.a][axis] = 0.0;
+      if (p.is_pair()) v[p.b][axis] = 0.0;
+    }
+  }
+}
+
+void Structure::Data::set_time(double time) {
+  elements.set_time(time);
+  for (std::size_t i = 0; i < loads.holds.size(); ++i) hold_displacement[i] = at(loads.holds[i].displacement, time);
+  if (loads.forces.empty()) return;
+  dead_load.assign(x.size(), Vec3::Zero());
+  for (const NodeLoad& load : loads.forces) {
+    double volume = 0.0;
+    for (const int node : load.nodes) volume += elements.nodal_volume()[node];
+    const Vec3 density = at(load.force, time) / volume;
+    for (const int node : load.nodes) dead_load[node] += elements.nodal_volume()[node] * density;
   }
 }
 
 void Structure::Data::estimate_largest_frequency() {
-#pragma omp parallel num_threads(elements.threads())
-  elements.stiffness_bounds(x, lightness, stiffness_bounds);
-  const double stiffest = *std::max_element(stiffness_bounds.begin(), stiffness_bounds.end());
-  largest_frequency = std::sqrt(stiffest / options.density);
+  largest_frequency = std::sqrt(elements.largest_squared_frequency(x));
 }
 
 double Structure::Data::stable_step() const {
@@ -91,17 +124,19 @@ int Structure::Data::substeps_for(double dt) const {
 }
 
 void Structure::Data::report_divergence(double time) const {
-  const auto [element, j] = elements.worst();
+  const auto [group, element, j] = elements.worst();
+  const auto nodes = group->nodes_of(element);
   Vec3 centre = Vec3::Zero(), reference_centre = Vec3::Zero();
-  for (const int node : mesh.elements[element]) {
-    centre += x[node] / 8.0;
-    reference_centre += mesh.nodes[node] / 8.0;
+  for (const int node : nodes) {
+    centre += x[node] / static_cast<double>(nodes.size());
+    reference_centre += mesh.nodes[node] / static_cast<double>(nodes.size());
   }
   const Vec3& place = centre.allFinite() ? centre : reference_centre;
   throw Diverged(
-      fmt::format("the structure is torn or inverted in element {} (J = {:.3g}, expected {:g} to {:g}) near "
+      fmt::format("the structure is torn or inverted in {} (J = {:.3g}, expected {:g} to {:g}) near "
                   "({:.4g}, {:.4g}, {:.4g}) m at t = {:.6g} s",
-                  element, j, options.volume_ratio[0], options.volume_ratio[1], place.x(), place.y(), place.z(), time));
+                  group->name_of(element), j, options.volume_ratio[0], options.volume_ratio[1], place.x(), place.y(),
+                  place.z(), time));
 }
 
 void Structure::advance(double dt, double time) {
@@ -115,6 +150,10 @@ void Structure::advance(double dt, double time) {
   int done = 0;
 #pragma omp parallel num_threads(d.elements.threads())
   for (int n = 0; n < d.substeps; ++n) {
+    if (d.loads_vary) {
+#pragma omp single
+      d.set_time(time + (n + 1) * substep);
+    }
     d.elements.compute_forces(d.x);
     if (d.elements.out_of_bounds()) break;
 #pragma omp single nowait

@@ -8,13 +8,14 @@
 #include <Eigen/Eigenvalues>
 
 #include "core/error.hpp"
+#include "fem/thin_solid.hpp"
 #include "ib/dragged_mass.hpp"
 
 namespace drogue::fsi {
 
 namespace {
 
-std::vector<std::array<int, 2>> pairs_then_single_nodes(const fem::HexMesh& mesh, double spacing) {
+std::vector<std::array<int, 2>> pairs_then_single_nodes(const fem::Mesh& mesh, double spacing) {
   std::vector<std::array<int, 2>> nodes = fem::thickness_pairs(mesh, spacing);
   std::vector<bool> paired(mesh.nodes.size(), false);
   for (const auto& [a, b] : nodes) paired[a] = paired[b] = true;
@@ -24,14 +25,16 @@ std::vector<std::array<int, 2>> pairs_then_single_nodes(const fem::HexMesh& mesh
   return nodes;
 }
 
-/// Which node of a pair comes first says nothing of the side it is on, so the normals are turned towards the positive
-/// side of the direction that most of them share.
-std::vector<Vec3> normals(const fem::HexMesh& mesh, const std::vector<std::array<int, 2>>& nodes) {
+/// Of pairs and of surfaces that are not the faces of a solid. Which node of a pair comes first says nothing of the
+/// side it is on, so the normals are turned towards the positive side of the direction that most of them share.
+std::vector<Vec3> normals(const fem::Mesh& mesh, const std::vector<std::array<int, 2>>& nodes) {
   std::vector<Vec3> normal(nodes.size(), Vec3::Zero());
+  const std::vector<Vec3> of_surface =
+      mesh.hexahedra.empty() ? area_normals(mesh) : std::vector<Vec3>(mesh.nodes.size(), Vec3::Zero());
   Mat3 sum = Mat3::Zero();
   for (std::size_t p = 0; p < nodes.size(); ++p) {
-    if (nodes[p][1] < 0) continue;
-    normal[p] = (mesh.nodes[nodes[p][1]] - mesh.nodes[nodes[p][0]]).normalized();
+    const auto [a, b] = nodes[p];
+    normal[p] = (b < 0 ? of_surface[a] : Vec3(mesh.nodes[b] - mesh.nodes[a])).normalized();
     sum += normal[p] * normal[p].transpose();
   }
   Vec3 shared = Eigen::SelfAdjointEigenSolver<Mat3>(sum).eigenvectors().col(2);
@@ -44,7 +47,7 @@ std::vector<Vec3> normals(const fem::HexMesh& mesh, const std::vector<std::array
 
 std::vector<double> dragged_masses(const fem::Structure& structure, const std::vector<std::array<int, 2>>& nodes,
                                    ib::Delta delta, double spacing, double density) {
-  const fem::HexMesh& mesh = structure.mesh();
+  const fem::Mesh& mesh = structure.mesh();
   std::vector<std::array<int, 2>> pairs;
   for (const auto& point : nodes) {
     if (point[1] >= 0) pairs.push_back(point);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The points through which a solid and the fluid meet. Where the solid is thinner than the grid spacing the two nodes
-// that face each other are one point, a marker of a sheet; every other node is a point of its own, a marker of the
-// cloud that fills the solid. With a single phase of fluid filling all space, the solid adds only what its mass exceeds
+// that face each other are one point, a marker of a sheet; every other node is a point of its own: a marker of the
+// cloud that fills the solid, of the layer that is a membrane, or of the line that is a cable. With a single phase of fluid filling all space, the solid adds only what its mass exceeds
 // the fluid's by.
 #pragma once
 
@@ -18,7 +18,7 @@ struct CoupledPoints {
   std::vector<std::array<int, 2>> nodes;  ///< {a, -1} or {a, b}
   std::vector<double> excess_mass;        ///< own mass less that of the fluid displaced [kg]
   std::vector<double> dragged_mass;       ///< of fluid (ib/dragged_mass.hpp) [kg]
-  std::vector<Vec3> normal;  ///< from face to face in the reference position, all towards one side; zero without
+  std::vector<Vec3> normal;  ///< of a sheet in the reference position, all towards one side; zero without
 
   int size() const { return static_cast<int>(nodes.size()); }
 };

@@ -55,7 +55,7 @@ Coupling::Coupling(fem::Structure& structure, const amr::Forest& forest, const C
       options_(options),
       points_(points_for(structure, forest, options)),
       markers_(forest, options.delta, options.body) {
-  fem::Inertia inertia{points_.nodes, points_.dragged_mass};
+  fem::Inertia inertia{points_.nodes, points_.dragged_mass, points_.excess_mass};
   for (int p = 0; p < points_.size(); ++p) inertia.mass[p] += points_.excess_mass[p];
   structure_->set_inertia(std::move(inertia));
   if (options.scheme == Scheme::peskin) {

@@ -31,7 +31,7 @@ struct MshContent {
 };
 
 /// gmsh's types of elements that are used somewhere.
-inline constexpr int msh_triangle = 2, msh_quadrangle = 3, msh_hexahedron = 5;
+inline constexpr int msh_line = 1, msh_triangle = 2, msh_quadrangle = 3, msh_hexahedron = 5, msh_point = 15;
 
 /// Reads a file in ASCII or binary. Throws InputError naming file and line.
 MshContent read_msh_content(const std::filesystem::path& file);

@@ -17,7 +17,10 @@ namespace {
 
 /// VTK's number of the cell that so many points make.
 template <std::size_t N>
-constexpr std::uint8_t vtk_cell = N == 8 ? 12 : 5;
+constexpr std::uint8_t vtk_cell = N == 8   ? 12
+                                  : N == 4 ? 9
+                                  : N == 3 ? 5
+                                           : 3;
 
 template <class T>
 constexpr std::string_view vtk_type = "";
@@ -74,17 +77,25 @@ void check_length(std::size_t length, std::size_t expected, std::string_view wha
 
 using Arrays = std::map<std::string, std::span<const Vec3>>;
 
-/// Cells of N points each, with point data and cell data.
-template <std::size_t N>
-void write(const std::filesystem::path& file, const std::vector<std::array<int, N>>& cells,
-           std::span<const Vec3> position, const Arrays& point_data,
-           const std::map<std::string, std::vector<double>>& cell_data, std::optional<double> time) {
-  std::vector<std::int32_t> connectivity;
-  for (const auto& cell : cells) connectivity.insert(connectivity.end(), cell.begin(), cell.end());
-  std::vector<std::int32_t> offsets(cells.size());
-  for (std::size_t e = 0; e < cells.size(); ++e) offsets[e] = static_cast<std::int32_t>(N * (e + 1));
-  const std::vector<std::uint8_t> types(cells.size(), vtk_cell<N>);
+/// Cells as VTK lists them.
+struct CellList {
+  std::vector<std::int32_t> connectivity, offsets;
+  std::vector<std::uint8_t> types;
 
+  template <std::size_t N>
+  void add(const std::vector<std::array<int, N>>& cells) {
+    for (const auto& cell : cells) {
+      connectivity.insert(connectivity.end(), cell.begin(), cell.end());
+      offsets.push_back(static_cast<std::int32_t>(connectivity.size()));
+      types.push_back(vtk_cell<N>);
+    }
+  }
+};
+
+/// Cells with point data and cell data.
+void write(const std::filesystem::path& file, const CellList& cells, std::span<const Vec3> position,
+           const Arrays& point_data, const std::map<std::string, std::vector<double>>& cell_data,
+           std::optional<double> time) {
   AppendedArrays arrays;
   std::string xml =
       "<?xml version=\"1.0\"?>\n"
@@ -94,10 +105,11 @@ void write(const std::filesystem::path& file, const std::vector<std::array<int, 
     const std::span<const double> value(&*time, 1);
     xml += fmt::format("<FieldData>{}</FieldData>\n", arrays.add("TimeValue", 1, value, " NumberOfTuples=\"1\""));
   }
-  xml += fmt::format("<Piece NumberOfPoints=\"{}\" NumberOfCells=\"{}\">\n", position.size(), cells.size());
+  xml += fmt::format("<Piece NumberOfPoints=\"{}\" NumberOfCells=\"{}\">\n", position.size(), cells.types.size());
   xml += fmt::format("<Points>{}</Points>\n", arrays.add("Points", position));
-  xml += "<Cells>" + arrays.add<std::int32_t>("connectivity", 1, connectivity);
-  xml += arrays.add<std::int32_t>("offsets", 1, offsets) + arrays.add<std::uint8_t>("types", 1, types) + "</Cells>\n";
+  xml += "<Cells>" + arrays.add<std::int32_t>("connectivity", 1, cells.connectivity);
+  xml += arrays.add<std::int32_t>("offsets", 1, cells.offsets) + arrays.add<std::uint8_t>("types", 1, cells.types) +
+         "</Cells>\n";
   xml += "<PointData Vectors=\"Displacement\">";
   for (const auto& [name, vectors] : point_data) {
     check_length(vectors.size(), position.size(), name);
@@ -105,7 +117,7 @@ void write(const std::filesystem::path& file, const std::vector<std::array<int, 
   }
   xml += "</PointData>\n<CellData>";
   for (const auto& [name, values] : cell_data) {
-    check_length(values.size(), cells.size(), name);
+    check_length(values.size(), cells.types.size(), name);
     xml += arrays.add<double>(escaped(name), 1, values);
   }
   xml += "</CellData>\n</Piece>\n</UnstructuredGrid>\n<AppendedData encoding=\"raw\">\n_";
@@ -126,17 +138,24 @@ std::vector<Vec3> difference(std::span<const Vec3> now, std::span<const Vec3> be
 
 }  // namespace
 
-void write_canopy(const std::filesystem::path& file, const fem::HexMesh& mesh, std::span<const Vec3> position,
+void write_canopy(const std::filesystem::path& file, const fem::Mesh& mesh, std::span<const Vec3> position,
                   std::span<const Vec3> velocity, const std::map<std::string, std::vector<double>>& cell_data,
                   std::optional<double> time) {
   const std::vector<Vec3> displacement = difference(position, mesh.nodes);
-  write(file, mesh.elements, position, {{"Displacement", displacement}, {"Velocity", velocity}}, cell_data, time);
+  CellList cells;
+  cells.add(mesh.hexahedra);
+  cells.add(mesh.quadrilaterals);
+  cells.add(mesh.triangles);
+  cells.add(mesh.lines);
+  write(file, cells, position, {{"Displacement", displacement}, {"Velocity", velocity}}, cell_data, time);
 }
 
 void write_surface(const std::filesystem::path& file, const geometry::TriangleMesh& mesh,
                    std::span<const Vec3> position, double time) {
   const std::vector<Vec3> displacement = difference(position, mesh.points);
-  write(file, mesh.triangles, position, {{"Displacement", displacement}}, {}, time);
+  CellList cells;
+  cells.add(mesh.triangles);
+  write(file, cells, position, {{"Displacement", displacement}}, {}, time);
 }
 
 }  // namespace drogue::io

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "core/types.hpp"
-#include "fem/hex_mesh.hpp"
+#include "fem/mesh.hpp"
 #include "geometry/triangle_mesh.hpp"
 
 namespace drogue::io {
@@ -18,7 +18,7 @@ namespace drogue::io {
 /// Writes the mesh at `position` [m] with point data Displacement [m] and Velocity [m/s], and one value per element of
 /// each array of `cell_data`. `time` [s] is stored as the field TimeValue, which ParaView shows. Throws
 /// std::runtime_error naming the file, std::invalid_argument for an array of the wrong length.
-void write_canopy(const std::filesystem::path& file, const fem::HexMesh& mesh, std::span<const Vec3> position,
+void write_canopy(const std::filesystem::path& file, const fem::Mesh& mesh, std::span<const Vec3> position,
                   std::span<const Vec3> velocity, const std::map<std::string, std::vector<double>>& cell_data,
                   std::optional<double> time = std::nullopt);
 

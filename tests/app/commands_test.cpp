@@ -91,7 +91,7 @@ TEST(Check, bodies_must_lie_in_the_finest_cells_of_the_domain) {
       {"box = [[-0.6, -0.6, -0.6], [0.6, 0.6, 0.6]]", "box = [[0.1, 0.1, 0.1], [0.2, 0.2, 0.2]]",
        "body.plate.mesh does not lie in cells of grid.finest = 0.03125 m with 3 cells around it: its node at ["},
       {"nodes = \"corners\"\npatch = 0.1", "nodes = \"edge\"",
-       "body.plate.hold names the node set \"edge\", which its mesh does not have"},
+       "body.plate.hold is wrong: the mesh has no node set \"edge\""},
   };
   for (const auto& [from, to, message] : misplacements) {
     folder.write("case.toml", replaced(plate_case, from, to));

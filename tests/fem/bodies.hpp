@@ -7,13 +7,27 @@
 #include <random>
 #include <vector>
 
+#include "fem/mesh_shapes.hpp"
 #include "fem/structure.hpp"
+#include "fem/thin_solid.hpp"
 
 namespace drogue::fem {
 
-inline HexMesh block(const std::array<double, 3>& size, const std::array<int, 3>& elements) {
+inline Mesh block(const std::array<double, 3>& size, const std::array<int, 3>& elements) {
   // The plate's sides follow its normal in cyclic order.
   return make_plate({Vec3::Zero(), 2, {size[0], size[1]}, size[2], elements});
+}
+
+struct SolidOptions {
+  double density = 0.0;
+  double dissipation = 0.2, safety = 0.9;
+  std::array<double, 2> volume_ratio{0.05, 20.0};
+};
+
+/// All hexahedra of a mesh, of one material.
+inline Structure solid(Mesh mesh, const Material& material, const SolidOptions& options, std::vector<Hold> holds) {
+  return Structure(one_solid(std::move(mesh), material, options.density, std::move(holds),
+                             {options.dissipation, options.safety, options.volume_ratio}));
 }
 
 inline std::vector<Vec3> random_vectors(std::size_t count, double amplitude, unsigned seed) {
@@ -53,8 +67,11 @@ inline double largest_norm(const std::vector<Vec3>& field) {
 
 /// The pairs of a thin body, each with `factor` times its own mass.
 inline Inertia paired(const Structure& body, double factor) {
-  Inertia inertia{thickness_pairs(body.mesh(), 1e300), {}};
-  for (const auto& [a, b] : inertia.point) inertia.mass.push_back(factor * (body.own_mass()[a] + body.own_mass()[b]));
+  Inertia inertia{thickness_pairs(body.mesh(), 1e300), {}, {}};
+  for (const auto& [a, b] : inertia.point) {
+    inertia.heavy_mass.push_back(body.own_mass()[a] + body.own_mass()[b]);
+    inertia.mass.push_back(factor * inertia.heavy_mass.back());
+  }
   return inertia;
 }
 

@@ -12,13 +12,13 @@ namespace {
 
 const std::vector<Material> laws{NeoHookean(1e3, 0.3, 0.3), SaintVenantKirchhoff(1e3, 0.3)};
 
-Structure body_of(const HexMesh& mesh, const Material& law, double density = 1.0) {
-  return Structure(mesh, law, {.density = density}, {});
+Structure body_of(const Mesh& mesh, const Material& law, double density = 1.0) {
+  return solid(mesh, law, {.density = density}, {});
 }
 
 /// 4 x 3 x 3 elements (so that a batch is partly filled), distorted but for its surface.
-HexMesh distorted_block(double amplitude, bool surface_too = false) {
-  HexMesh mesh = block({0.4, 0.3, 0.3}, {4, 3, 3});
+Mesh distorted_block(double amplitude, bool surface_too = false) {
+  Mesh mesh = block({0.4, 0.3, 0.3}, {4, 3, 3});
   const auto shift = random_vectors(mesh.nodes.size(), amplitude, 7);
   for (std::size_t i = 0; i < mesh.nodes.size(); ++i) {
     const Vec3 depth = Vec3(0.2, 0.15, 0.15) - mesh.nodes[i].cwiseAbs();
@@ -30,7 +30,7 @@ HexMesh distorted_block(double amplitude, bool surface_too = false) {
 const Mat3 stretch{{1.2, 0.1, -0.05}, {0.02, 0.9, 0.1}, {0.1, -0.1, 1.1}};
 
 TEST(HexElements, patch_test_a_linear_displacement_gives_uniform_stress) {
-  const HexMesh mesh = distorted_block(0.02);
+  const Mesh mesh = distorted_block(0.02);
   for (const Material& law : laws) {
     const Structure body = body_of(mesh, law);
     const auto force = internal_force(body, mapped(mesh.nodes, stretch));
@@ -58,7 +58,7 @@ TEST(HexElements, patch_test_a_linear_displacement_gives_uniform_stress) {
 }
 
 TEST(HexElements, forces_are_minus_the_gradient_of_the_energy) {
-  const HexMesh mesh = distorted_block(0.02, true);
+  const Mesh mesh = distorted_block(0.02, true);
   const auto x = sum(mapped(mesh.nodes, stretch), random_vectors(mesh.nodes.size(), 0.01, 1));
   const auto direction = random_vectors(mesh.nodes.size(), 1.0, 2),
              rest = std::vector<Vec3>(mesh.nodes.size(), Vec3::Zero());
@@ -79,7 +79,7 @@ TEST(HexElements, forces_are_minus_the_gradient_of_the_energy) {
 }
 
 TEST(HexElements, rotation_by_a_right_angle_gives_no_force) {
-  const HexMesh mesh = distorted_block(0.02, true);
+  const Mesh mesh = distorted_block(0.02, true);
   for (const Material& law : laws) {
     const Structure body = body_of(mesh, law);
     for (const Mat3& turn : {rotation(0.5 * std::numbers::pi, Vec3::UnitZ()), rotation(2.0, Vec3(1.0, 2.0, 3.0))}) {
@@ -89,7 +89,7 @@ TEST(HexElements, rotation_by_a_right_angle_gives_no_force) {
 }
 
 TEST(HexElements, forces_have_no_resultant_and_no_torque) {
-  const HexMesh mesh = distorted_block(0.02, true);
+  const Mesh mesh = distorted_block(0.02, true);
   const auto x = sum(mapped(mesh.nodes, stretch), random_vectors(mesh.nodes.size(), 0.01, 3));
   for (const Material& law : laws) {
     const auto force = internal_force(body_of(mesh, law), x);
@@ -150,7 +150,7 @@ void expect_upper_estimate(const Structure& body, double closeness, const std::s
 }
 
 TEST(HexElements, stable_step_of_the_plate_is_that_of_its_thickness_mode) {
-  const HexMesh mesh = make_plate({Vec3::Zero(), 0, {0.1, 0.1}, 5e-3, {6, 6, 1}});
+  const Mesh mesh = make_plate({Vec3::Zero(), 0, {0.1, 0.1}, 5e-3, {6, 6, 1}});
   const Structure body = body_of(mesh, laws[0]);
   // 2 c / h with the speed of pressure waves c = sqrt((lambda + 2 mu) / rho); the other edges add 2 (h / dx)^2 = 0.18.
   const double exact = 2.0 / 5e-3 * std::sqrt(1346.15);
@@ -159,7 +159,7 @@ TEST(HexElements, stable_step_of_the_plate_is_that_of_its_thickness_mode) {
 }
 
 TEST(HexElements, frequency_estimate_is_close_and_never_too_low_for_plates) {
-  const HexMesh mesh = make_plate({Vec3::Zero(), 2, {0.1, 0.1}, 5e-3, {6, 6, 1}});
+  const Mesh mesh = make_plate({Vec3::Zero(), 2, {0.1, 0.1}, 5e-3, {6, 6, 1}});
   std::vector<std::pair<std::string, std::vector<Vec3>>> states{
       {"flat", mesh.nodes},
       {"stretched", mapped(mesh.nodes, Vec3(1.3, 1.3, 0.7).asDiagonal())},
@@ -189,7 +189,7 @@ TEST(HexElements, frequency_estimate_is_close_and_never_too_low_for_plates) {
 TEST(HexElements, frequency_estimate_is_close_and_never_too_low_for_distorted_blocks) {
   for (const Material& law : laws) {
     for (const double distortion : {0.0, 0.01, 0.02}) {
-      const HexMesh mesh = distorted_block(distortion, true);
+      const Mesh mesh = distorted_block(distortion, true);
       Structure body = body_of(mesh, law);
       for (const Mat3& f : {Mat3(Mat3::Identity()), stretch}) {
         body.set_state(mapped(mesh.nodes, f), std::vector<Vec3>(mesh.nodes.size(), Vec3::Zero()));

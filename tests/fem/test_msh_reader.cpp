@@ -52,7 +52,7 @@ class Writer {
 /// A block of 2 x 1 x 1 hexahedra, its face x = 0 as a quadrangle and one of its corners as a point; node tags start
 /// at 101 and the first node belongs to no hexahedron.
 std::string two_hexahedra(bool binary) {
-  const HexMesh mesh = block({2.0, 1.0, 1.0}, {2, 1, 1});
+  const Mesh mesh = block({2.0, 1.0, 1.0}, {2, 1, 1});
   const std::uint64_t nodes = mesh.nodes.size();
   Writer w(binary);
   w.text(binary ? "$MeshFormat\n4.1 1 8\n" : "$MeshFormat\n4.1 0 8\n");
@@ -83,7 +83,7 @@ std::string two_hexahedra(bool binary) {
   w.integers({3, 5, 5}).counts({2});
   for (std::uint64_t e = 0; e < 2; ++e) {
     w.put(3 + e);
-    for (const int node : mesh.elements[e]) w.put(std::uint64_t(101 + node));
+    for (const int node : mesh.hexahedra[e]) w.put(std::uint64_t(101 + node));
   }
   w.text("\n$EndElements\n");
   return w.content();
@@ -114,12 +114,12 @@ std::string replaced(std::string text, const std::string& what, const std::strin
   return text.replace(at, what.size(), by);
 }
 
-void expect_two_hexahedra(const HexMesh& mesh) {
-  const HexMesh expected = block({2.0, 1.0, 1.0}, {2, 1, 1});
+void expect_two_hexahedra(const Mesh& mesh) {
+  const Mesh expected = block({2.0, 1.0, 1.0}, {2, 1, 1});
   ASSERT_EQ(mesh.nodes.size(), 12u);
-  ASSERT_EQ(mesh.elements.size(), 2u);
+  ASSERT_EQ(mesh.hexahedra.size(), 2u);
   for (int e = 0; e < 2; ++e) {
-    for (int a = 0; a < 8; ++a) EXPECT_EQ(mesh.nodes[mesh.elements[e][a]], expected.nodes[expected.elements[e][a]]);
+    for (int a = 0; a < 8; ++a) EXPECT_EQ(mesh.nodes[mesh.hexahedra[e][a]], expected.nodes[expected.hexahedra[e][a]]);
   }
   ASSERT_EQ(mesh.node_sets.size(), 4u);
   EXPECT_EQ(mesh.node_sets.at("cloth").size(), 12u);
@@ -128,8 +128,10 @@ void expect_two_hexahedra(const HexMesh& mesh) {
   for (const int node : mesh.node_sets.at("left face")) EXPECT_EQ(mesh.nodes[node].x(), -1.0);
   ASSERT_EQ(mesh.node_sets.at("tip").size(), 1u);
   EXPECT_EQ(mesh.nodes[mesh.node_sets.at("tip")[0]], Vec3(-1.0, -0.5, -0.5));
-  ASSERT_EQ(mesh.element_sets.size(), 2u);
-  EXPECT_EQ(mesh.element_sets.at("cloth"), (std::vector{0, 1}));
+  ASSERT_EQ(mesh.element_sets.size(), 3u);
+  ASSERT_EQ(mesh.quadrilaterals.size(), 1u);
+  EXPECT_EQ(mesh.element_sets.at("cloth").hexahedra, (std::vector{0, 1}));
+  EXPECT_EQ(mesh.element_sets.at("left face").quadrilaterals, std::vector{0});
 }
 
 TEST(MshReader, ascii_file_gives_nodes_elements_and_sets) {
@@ -171,7 +173,7 @@ TEST(MshReader, elements_it_cannot_use_are_refused) {
   EXPECT_NE(complaint(replaced(good, "\n112\n1", "\n113\n1")).find("uses node 113, which the file does not define"),
             std::string::npos);
   const std::size_t elements = good.find("$Elements");
-  EXPECT_EQ(complaint(good.substr(0, elements)), ": no hexahedra; expected elements of type 5");
+  EXPECT_EQ(complaint(good.substr(0, elements)), ": no elements; expected hexahedra, quadrangles, triangles or lines");
 }
 
 TEST(MshReader, a_missing_file_is_named) {

@@ -25,19 +25,19 @@ TEST(PlaneStress, a_sheet_beyond_the_range_of_the_law_has_no_thickness) {
 }
 
 TEST(PlaneStress, stretches_of_a_sheet_do_not_depend_on_rotation_and_shear_across_it) {
-  const HexMesh sheet = make_plate({Vec3::Zero(), 1, {0.4, 0.3}, 0.01, {4, 3, 1}});
+  const Mesh sheet = make_plate({Vec3::Zero(), 1, {0.4, 0.3}, 0.01, {4, 3, 1}});
   Mat3 f = Vec3(1.2, 0.8, 0.9).asDiagonal();
   f(0, 1) = 0.3;  // slides one face over the other, which leaves their distance
   const auto x = mapped(sheet.nodes, rotation(1.1, Vec3(1, 2, 3)) * f);
-  const SheetStretch stretch = sheet_stretch(sheet, 5, 2, x);
+  const SheetStretch stretch = sheet_stretch(sheet.hexahedra[5], 2, sheet.nodes, x);
   EXPECT_NEAR(stretch.thickness, 0.8, 1e-12);
   EXPECT_NEAR(stretch.in_plane[0], 0.9, 1e-12);
   EXPECT_NEAR(stretch.in_plane[1], 1.2, 1e-12);
 }
 
 TEST(PlaneStress, a_sheet_of_free_thickness_compares_as_such) {
-  const HexMesh mesh = block({0.4, 0.4, 0.01}, {4, 4, 1});
-  Structure sheet(mesh, neo_hookean, {.density = 1.0}, {});
+  const Mesh mesh = block({0.4, 0.4, 0.01}, {4, 4, 1});
+  Structure sheet = solid(mesh, neo_hookean, {.density = 1.0}, {});
   const double free = plane_stress_thickness(neo_hookean, 1.1, 0.95);
   const auto place = [&](double thickness) {
     const auto x = mapped(mesh.nodes, Vec3(1.1, 0.95, thickness).asDiagonal());

@@ -21,7 +21,7 @@ const double bar_speed = std::sqrt(1e3);
 /// Speed of waves across a plate, sqrt((lambda + 2 mu) / rho).
 const double thickness_speed = std::sqrt(1346.15);
 
-HexMesh thin_plate() { return make_plate({Vec3::Zero(), 0, {0.1, 0.08}, 5e-3, {7, 5, 1}}); }
+Mesh thin_plate() { return make_plate({Vec3::Zero(), 0, {0.1, 0.08}, 5e-3, {7, 5, 1}}); }
 
 std::vector<Vec3> copy(std::span<const Vec3> field) { return {field.begin(), field.end()}; }
 
@@ -59,8 +59,8 @@ double synchronised_energy(const Structure& body, double substep) {
 TEST(Structure, free_vibration_keeps_its_energy_over_a_hundred_periods) {
   constexpr double length = 0.1;
   for (const Material& law : {Material(neo_hookean), Material(saint_venant_kirchhoff)}) {
-    const HexMesh mesh = block({length, 0.01, 0.01}, {10, 1, 1});
-    Structure bar(mesh, law, {.density = 1.0, .dissipation = 0.0}, {});
+    const Mesh mesh = block({length, 0.01, 0.01}, {10, 1, 1});
+    Structure bar = solid(mesh, law, {.density = 1.0, .dissipation = 0.0}, {});
     // The lowest axial mode at 3 % strain: sin(pi x / L) about the middle.
     std::vector<Vec3> v(mesh.nodes.size(), Vec3::Zero());
     const double speed = 0.03 * bar_speed;
@@ -78,9 +78,9 @@ TEST(Structure, free_vibration_keeps_its_energy_over_a_hundred_periods) {
 
 TEST(Structure, lowest_frequency_of_a_bar_is_that_of_the_wave_equation) {
   constexpr double length = 0.2;
-  const HexMesh mesh = block({length, 0.01, 0.01}, {20, 1, 1});
+  const Mesh mesh = block({length, 0.01, 0.01}, {20, 1, 1});
   const int tip = 20;
-  Structure bar(mesh, neo_hookean, {.density = 1.0, .dissipation = 0.0}, {});
+  Structure bar = solid(mesh, neo_hookean, {.density = 1.0, .dissipation = 0.0}, {});
   std::vector<Vec3> v(mesh.nodes.size(), Vec3::Zero());
   for (std::size_t i = 0; i < v.size(); ++i) v[i].x() = 1e-3 * std::sin(std::numbers::pi * mesh.nodes[i].x() / length);
   bar.set_state(mesh.nodes, v);
@@ -100,7 +100,7 @@ TEST(Structure, lowest_frequency_of_a_bar_is_that_of_the_wave_equation) {
 
 TEST(Structure, momentum_and_angular_momentum_are_conserved_without_holds) {
   for (const double factor : {1.0, 0.5, 30.0}) {
-    Structure plate(thin_plate(), neo_hookean, {.density = 1.0, .dissipation = 0.0}, {});
+    Structure plate = solid(thin_plate(), neo_hookean, {.density = 1.0, .dissipation = 0.0}, {});
     plate.set_inertia(paired(plate, factor));
     const auto x = sum(plate.mesh().nodes, random_vectors(plate.mesh().nodes.size(), 3e-4, 1));
     auto v = random_vectors(x.size(), 1.0, 2);
@@ -116,7 +116,7 @@ TEST(Structure, momentum_and_angular_momentum_are_conserved_without_holds) {
 }
 
 TEST(Structure, dissipation_removes_the_thickness_mode_within_a_few_sub_steps) {
-  Structure plate(thin_plate(), neo_hookean, {.density = 1.0}, {});
+  Structure plate = solid(thin_plate(), neo_hookean, {.density = 1.0}, {});
   plate.set_inertia(paired(plate, 40.0));
   std::vector<Vec3> v(plate.mesh().nodes.size(), Vec3::Zero());
   for (std::size_t i = 0; i < v.size(); ++i) v[i].x() = std::copysign(0.05, plate.mesh().nodes[i].x());
@@ -134,8 +134,8 @@ TEST(Structure, dissipation_removes_the_thickness_mode_within_a_few_sub_steps) {
 TEST(Structure, dissipation_spares_what_the_sub_step_resolves) {
   // Axial mode of a strip whose pairs carry 40 times its mass, against a sub-step set by the thickness.
   constexpr double length = 0.2;
-  const HexMesh mesh = block({length, 0.02, 1e-3}, {10, 1, 1});
-  Structure strip(mesh, neo_hookean, {.density = 1.0}, {});
+  const Mesh mesh = block({length, 0.02, 1e-3}, {10, 1, 1});
+  Structure strip = solid(mesh, neo_hookean, {.density = 1.0}, {});
   strip.set_inertia(paired(strip, 40.0));
   std::vector<Vec3> v(mesh.nodes.size(), Vec3::Zero());
   for (std::size_t i = 0; i < v.size(); ++i) v[i].x() = 0.02 * std::sin(std::numbers::pi * mesh.nodes[i].x() / length);
@@ -147,8 +147,8 @@ TEST(Structure, dissipation_spares_what_the_sub_step_resolves) {
 }
 
 TEST(Structure, pairs_with_their_own_mass_move_as_free_nodes) {
-  Structure nodes(thin_plate(), neo_hookean, {.density = 1.0}, {}),
-      pairs(thin_plate(), neo_hookean, {.density = 1.0}, {});
+  Structure nodes = solid(thin_plate(), neo_hookean, {.density = 1.0}, {});
+  Structure pairs = solid(thin_plate(), neo_hookean, {.density = 1.0}, {});
   pairs.set_inertia(paired(pairs, 1.0));
   const auto v = random_vectors(nodes.mesh().nodes.size(), 1.0, 4);
   nodes.set_state(nodes.mesh().nodes, v);
@@ -160,7 +160,7 @@ TEST(Structure, pairs_with_their_own_mass_move_as_free_nodes) {
 }
 
 TEST(Structure, mean_of_a_pair_accelerates_by_force_over_its_mass) {
-  Structure plate(thin_plate(), neo_hookean, {.density = 1.0, .dissipation = 0.0}, {});
+  Structure plate = solid(thin_plate(), neo_hookean, {.density = 1.0, .dissipation = 0.0}, {});
   const Inertia inertia = paired(plate, 7.0);
   plate.set_inertia(inertia);
   const auto x = sum(plate.mesh().nodes, random_vectors(plate.mesh().nodes.size(), 3e-4, 1));
@@ -180,7 +180,7 @@ TEST(Structure, mean_of_a_pair_accelerates_by_force_over_its_mass) {
 }
 
 TEST(Structure, set_mean_velocity_keeps_the_difference_of_the_faces) {
-  Structure plate(thin_plate(), neo_hookean, {.density = 1.0}, {});
+  Structure plate = solid(thin_plate(), neo_hookean, {.density = 1.0}, {});
   plate.set_inertia(paired(plate, 3.0));
   plate.set_state(plate.mesh().nodes, random_vectors(plate.mesh().nodes.size(), 1.0, 9));
   const auto [a, b] = plate.inertia().point[5];
@@ -191,7 +191,7 @@ TEST(Structure, set_mean_velocity_keeps_the_difference_of_the_faces) {
 }
 
 TEST(Structure, thickness_stretch_is_that_of_the_pairs) {
-  Structure plate(thin_plate(), neo_hookean, {.density = 1.0}, {});
+  Structure plate = solid(thin_plate(), neo_hookean, {.density = 1.0}, {});
   const auto thinner = mapped(plate.mesh().nodes, Vec3(0.7, 1.3, 1.3).asDiagonal());
   plate.set_state(thinner, std::vector<Vec3>(thinner.size(), Vec3::Zero()));
   EXPECT_EQ(plate.mean_thickness_stretch(), 1.0);
@@ -200,7 +200,7 @@ TEST(Structure, thickness_stretch_is_that_of_the_pairs) {
   EXPECT_NEAR(plate.mean_thickness_stretch(), 0.7, 1e-13);
 }
 
-std::vector<int> all_nodes(const HexMesh& mesh) {
+std::vector<int> all_nodes(const Mesh& mesh) {
   std::vector<int> nodes(mesh.nodes.size());
   for (std::size_t i = 0; i < nodes.size(); ++i) nodes[i] = static_cast<int>(i);
   return nodes;
@@ -214,13 +214,13 @@ void push(Structure& body, const Vec3& acceleration, double dt) {
 }
 
 TEST(Structure, tethers_carry_a_load_with_displacement_load_over_stiffness) {
-  const HexMesh mesh = thin_plate();
+  const Mesh mesh = thin_plate();
   const Vec3 acceleration(3.0, -1.0, 2.0);
   for (const double factor : {0.5, 1.0, 20.0}) {
     // Critically damped; an impulse per sub-step shifts the balance by dissipation x damping x dt, so there is none.
     const double stiffness = 1e6, damping = 2.0 * std::sqrt(stiffness * factor), dt = 5e-5;
-    Structure plate(mesh, neo_hookean, {.density = 1.0, .dissipation = 0.0},
-                    {{all_nodes(mesh), false, stiffness, damping}});
+    Structure plate =
+        solid(mesh, neo_hookean, {.density = 1.0, .dissipation = 0.0}, {{all_nodes(mesh), false, stiffness, damping}});
     plate.set_inertia(paired(plate, factor));
     for (int step = 0; step < 2000; ++step) {
       push(plate, acceleration, dt);
@@ -236,10 +236,10 @@ TEST(Structure, tethers_carry_a_load_with_displacement_load_over_stiffness) {
 }
 
 TEST(Structure, stiff_tethers_stay_stable_and_do_not_shorten_the_sub_step) {
-  const HexMesh mesh = thin_plate();
+  const Mesh mesh = thin_plate();
   const auto corners = corner_nodes(mesh, 0.016);
-  Structure free_plate(mesh, neo_hookean, {.density = 1.0}, {}),
-      held(mesh, neo_hookean, {.density = 1.0}, {{corners, false, 1e12, 0.0}});
+  Structure free_plate = solid(mesh, neo_hookean, {.density = 1.0}, {});
+  Structure held = solid(mesh, neo_hookean, {.density = 1.0}, {{corners, false, 1e12, 0.0}});
   for (Structure* plate : {&free_plate, &held}) {
     plate->set_inertia(paired(*plate, 40.0));
     plate->set_state(mesh.nodes, random_vectors(mesh.nodes.size(), 0.5, 3));
@@ -251,10 +251,10 @@ TEST(Structure, stiff_tethers_stay_stable_and_do_not_shorten_the_sub_step) {
 }
 
 TEST(Structure, rigid_hold_is_the_limit_of_stiff_tethers_and_its_reaction_is_the_lost_momentum) {
-  const HexMesh mesh = thin_plate();
+  const Mesh mesh = thin_plate();
   const auto corners = corner_nodes(mesh, 0.016);
-  Structure rigid(mesh, neo_hookean, {.density = 1.0}, {{corners, true}}),
-      tethered(mesh, neo_hookean, {.density = 1.0}, {{corners, false, 1e13, 0.0}});
+  Structure rigid = solid(mesh, neo_hookean, {.density = 1.0}, {{corners, true}});
+  Structure tethered = solid(mesh, neo_hookean, {.density = 1.0}, {{corners, false, 1e13, 0.0}});
   const Vec3 acceleration(0.5, 0.0, 0.1);
   constexpr double dt = 1e-3;
   for (Structure* plate : {&rigid, &tethered}) {
@@ -277,13 +277,13 @@ TEST(Structure, rigid_hold_is_the_limit_of_stiff_tethers_and_its_reaction_is_the
 
 TEST(Structure, every_number_of_threads_gives_the_same_bits) {
   const int threads_before = omp_get_max_threads();
-  const HexMesh mesh = make_plate({Vec3::Zero(), 0, {0.4, 0.4}, 5e-3, {35, 32, 1}});
+  const Mesh mesh = make_plate({Vec3::Zero(), 0, {0.4, 0.4}, 5e-3, {35, 32, 1}});
   const auto v = random_vectors(mesh.nodes.size(), 0.5, 8);
   std::vector<Vec3> reference_position;
   Vec3 reference_reaction;
   for (const int threads : {1, 2, 4}) {
     omp_set_num_threads(threads);
-    Structure plate(mesh, neo_hookean, {.density = 1.0}, {{corner_nodes(mesh, 0.02), false, 1e7, 10.0}});
+    Structure plate = solid(mesh, neo_hookean, {.density = 1.0}, {{corner_nodes(mesh, 0.02), false, 1e7, 10.0}});
     plate.set_inertia(paired(plate, 40.0));
     plate.set_state(mesh.nodes, v);
     for (int step = 0; step < 5; ++step) plate.advance(7e-4, 0.0);
@@ -299,9 +299,9 @@ TEST(Structure, every_number_of_threads_gives_the_same_bits) {
 }
 
 TEST(Structure, a_restored_state_goes_on_with_the_same_bits) {
-  const HexMesh mesh = thin_plate();
+  const Mesh mesh = thin_plate();
   const auto make = [&] {
-    Structure plate(mesh, neo_hookean, {.density = 1.0}, {{corner_nodes(mesh, 0.02), false, 1e7, 10.0}});
+    Structure plate = solid(mesh, neo_hookean, {.density = 1.0}, {{corner_nodes(mesh, 0.02), false, 1e7, 10.0}});
     plate.set_inertia(paired(plate, 40.0));
     return plate;
   };
@@ -319,16 +319,16 @@ TEST(Structure, a_restored_state_goes_on_with_the_same_bits) {
 }
 
 TEST(Structure, the_state_of_another_mesh_is_refused) {
-  HexMesh mesh = thin_plate();
-  Structure plate(mesh, neo_hookean, {.density = 1.0}, {});
+  Mesh mesh = thin_plate();
+  Structure plate = solid(mesh, neo_hookean, {.density = 1.0}, {});
   mesh.nodes.front().x() += 1e-4;
-  Structure other(mesh, neo_hookean, {.density = 1.0}, {});
+  Structure other = solid(mesh, neo_hookean, {.density = 1.0}, {});
   EXPECT_THROW(testing::copy_state(plate, other), InputError);
 }
 
 TEST(Structure, sub_steps_follow_the_thickness_mode) {
-  Structure plate(make_plate({Vec3::Zero(), 0, {0.8128, 0.8128}, 5e-3, {52, 52, 1}}), neo_hookean, {.density = 1.0},
-                  {});
+  Structure plate =
+      solid(make_plate({Vec3::Zero(), 0, {0.8128, 0.8128}, 5e-3, {52, 52, 1}}), neo_hookean, {.density = 1.0}, {});
   plate.set_inertia(paired(plate, 40.0));
   plate.advance(7.8e-4, 0.0);
   // 2 c / h = 14.7e3 rad/s against 0.9 x 2 / sqrt(1.4) = 1.52.

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "../ib/fake_fluid.hpp"
+#include "fem/mesh_shapes.hpp"
 #include "fsi/coupling.hpp"
 
 namespace drogue::testing {
@@ -41,10 +42,9 @@ struct PlateOptions {
 /// A plate normal to x in the middle of the fine cube, or of the periodic box.
 inline fem::Structure plate(const PlateOptions& options, const Vec3& centre = Vec3(0.013, 0.004, -0.007)) {
   const int n = options.elements;
-  fem::StructureOptions solid;
-  solid.density = options.density;
-  return {fem::make_plate({centre, 0, {options.side, options.side}, options.thickness, {n, n, 1}}),
-          fem::NeoHookean(1000.0, 0.3, 0.3), solid, options.holds};
+  return fem::Structure(
+      fem::one_solid(fem::make_plate({centre, 0, {options.side, options.side}, options.thickness, {n, n, 1}}),
+                     fem::NeoHookean(1000.0, 0.3, 0.3), options.density, options.holds));
 }
 
 inline std::vector<int> all_nodes(int elements) {

@@ -18,12 +18,8 @@ CoupledPoints points_of(const fem::Structure& solid) {
 }
 
 fem::Structure cube(double density) {
-  fem::StructureOptions options;
-  options.density = density;
-  return {fem::make_plate({Vec3::Zero(), 0, {8 * dx, 8 * dx}, 8 * dx, {8, 8, 8}}),
-          fem::NeoHookean(1000.0, 0.3, 0.3),
-          options,
-          {}};
+  return fem::Structure(fem::one_solid(fem::make_plate({Vec3::Zero(), 0, {8 * dx, 8 * dx}, 8 * dx, {8, 8, 8}}),
+                                       fem::NeoHookean(1000.0, 0.3, 0.3), density));
 }
 
 TEST(CoupledPoints, a_thin_plate_meets_the_fluid_in_pairs_that_drag_the_mass_of_its_area) {
@@ -70,6 +66,35 @@ TEST(CoupledPoints, split_nodes_share_what_their_pair_has) {
       EXPECT_DOUBLE_EQ(2.0 * nodes.dragged_mass[node], points.dragged_mass[p]);
       EXPECT_DOUBLE_EQ(2.0 * nodes.excess_mass[node], points.excess_mass[p]);
       EXPECT_EQ(nodes.normal[node], points.normal[p]);
+    }
+  }
+}
+
+TEST(CoupledPoints, a_membrane_is_one_layer_of_markers_and_a_cable_a_line) {
+  const double half = 8 * dx;
+  fem::Mesh mesh = fem::make_sheet(
+      {{Vec3(-half, -half, 0), Vec3(half, -half, 0), Vec3(half, half, 0), Vec3(-half, half, 0)}, {32, 32}});
+  const int sheet_nodes = static_cast<int>(mesh.nodes.size());
+  const int top = fem::add_point(mesh, "top", Vec3(0.0, 0.0, 40 * dx));
+  fem::add_line(mesh, "line", node_nearest(mesh, Vec3::Zero()), top, 80);
+  const fem::OrthotropicFabric fabric(1e6, 1e6, 0.0, 4e5);
+  fem::Model model{
+      mesh, {{"", 500.0, fem::Membrane{fabric, 1e-4}}, {"line", 800.0, fem::Cable{{1e6, true}, 1e-6}}}, {}, {}};
+  const fem::Structure body(std::move(model));
+  const CoupledPoints points = points_of(body);
+  ASSERT_EQ(points.size(), static_cast<int>(mesh.nodes.size()));
+  const double per_cell = 1.0 / ib::sum_phi_squared(ib::Delta::peskin4);
+  for (int p = 0; p < points.size(); ++p) {
+    const Vec3& x = mesh.nodes[points.nodes[p][0]];
+    if (points.nodes[p][0] < sheet_nodes) {
+      if (x.cwiseAbs().maxCoeff() > half - 3 * dx || x.norm() < 6 * dx) continue;
+      EXPECT_NEAR(points.dragged_mass[p], fluid_density * 0.25 * dx * dx * dx * per_cell,
+                  1e-3 * points.dragged_mass[p]);
+      EXPECT_LT((points.normal[p] - Vec3::UnitZ()).norm(), 1e-12);
+    } else if (x.z() > 6 * dx && x.z() < 36 * dx) {
+      EXPECT_NEAR(points.dragged_mass[p], fluid_density * 0.5 * dx * std::pow(dx * per_cell, 2),
+                  1e-3 * points.dragged_mass[p]);
+      EXPECT_EQ(points.normal[p], Vec3::Zero());
     }
   }
 }

@@ -9,6 +9,7 @@
 #include "../core/memory_archive.hpp"
 #include "bodies.hpp"
 #include "core/error.hpp"
+#include "fem/thin_solid.hpp"
 #include "ib/direct_forcing.hpp"
 #include "ib/dragged_mass.hpp"
 

@@ -76,10 +76,8 @@ TEST_P(ThickSolid, slip_decays_for_any_density_that_is_accepted) {
   const amr::Forest forest = periodic_box();
   FakeFluid fluid(forest, fluid_density);
   fluid.fill_at_random(43);
-  fem::StructureOptions options;
-  options.density = GetParam() * fluid_density;
-  fem::Structure solid(fem::make_plate({centre, 0, {0.375, 0.375}, 0.375, {6, 6, 6}}),
-                       fem::NeoHookean(1000.0, 0.3, 0.3), options, {});
+  fem::Structure solid(fem::one_solid(fem::make_plate({centre, 0, {0.375, 0.375}, 0.375, {6, 6, 6}}),
+                                      fem::NeoHookean(1000.0, 0.3, 0.3), GetParam() * fluid_density));
   Coupling coupling(solid, forest, coupled("cube"));
   double first = 0.0;
   for (int step = 0; step < 400; ++step) {

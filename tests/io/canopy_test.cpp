@@ -37,10 +37,10 @@ std::vector<T> appended(const std::string& text, const std::string& name) {
 
 TEST(Canopy, arrays_lie_where_the_header_says) {
   const TemporaryFolder folder("canopy_arrays");
-  const fem::HexMesh mesh = test::square_plate(4);
+  const fem::Mesh mesh = test::square_plate(4);
   const std::vector<Vec3> position = test::dome(mesh, 0.3);
   const std::vector<Vec3> velocity(mesh.nodes.size(), Vec3(1.0, 2.0, 3.0));
-  std::vector<double> j(mesh.elements.size());
+  std::vector<double> j(mesh.hexahedra.size());
   for (std::size_t e = 0; e < j.size(); ++e) j[e] = 1.0 + 0.01 * static_cast<double>(e);
   io::write_canopy(folder / "canopy_000003.vtu", mesh, position, velocity, {{"J", j}}, 0.75);
   EXPECT_EQ(folder.names(), std::vector<std::string>{"canopy_000003.vtu"});
@@ -56,13 +56,13 @@ TEST(Canopy, arrays_lie_where_the_header_says) {
     }
   EXPECT_EQ(appended<double>(text, "J"), j);
   EXPECT_EQ(appended<double>(text, "TimeValue"), std::vector<double>{0.75});
-  EXPECT_EQ(appended<std::int32_t>(text, "offsets").back(), static_cast<int>(8 * mesh.elements.size()));
-  EXPECT_EQ(appended<std::uint8_t>(text, "types"), std::vector<std::uint8_t>(mesh.elements.size(), 12));
+  EXPECT_EQ(appended<std::int32_t>(text, "offsets").back(), static_cast<int>(8 * mesh.hexahedra.size()));
+  EXPECT_EQ(appended<std::uint8_t>(text, "types"), std::vector<std::uint8_t>(mesh.hexahedra.size(), 12));
 }
 
 TEST(Canopy, an_array_of_the_wrong_length_is_refused) {
   const TemporaryFolder folder("canopy_refused");
-  const fem::HexMesh mesh = test::square_plate(2);
+  const fem::Mesh mesh = test::square_plate(2);
   EXPECT_THROW(io::write_canopy(folder / "canopy.vtu", mesh, mesh.nodes, mesh.nodes, {{"J", {1.0}}}),
                std::invalid_argument);
   EXPECT_TRUE(folder.names().empty());

@@ -13,7 +13,7 @@
 #include <utility>
 #include <vector>
 
-#include "fem/hex_mesh.hpp"
+#include "fem/mesh.hpp"
 #include "fluid/fluid_solver.hpp"
 
 namespace drogue::test {
@@ -83,8 +83,8 @@ inline amr::Forest plate_forest(int finest) {
   });
 }
 
-inline fem::HexMesh square_plate(int elements, double length = 0.8128, double thickness = 0.005) {
-  fem::HexMesh mesh;
+inline fem::Mesh square_plate(int elements, double length = 0.8128, double thickness = 0.005) {
+  fem::Mesh mesh;
   const int n = elements + 1;
   for (int side = 0; side < 2; ++side)
     for (int k = 0; k < n; ++k)
@@ -94,13 +94,13 @@ inline fem::HexMesh square_plate(int elements, double length = 0.8128, double th
   for (int k = 0; k < elements; ++k)
     for (int j = 0; j < elements; ++j) {
       const int a = k * n + j, b = a + 1, c = a + n + 1, d = a + n, back = n * n;
-      mesh.elements.push_back({a, b, c, d, a + back, b + back, c + back, d + back});
+      mesh.hexahedra.push_back({a, b, c, d, a + back, b + back, c + back, d + back});
     }
   return mesh;
 }
 
 /// The plate blown to a dome that hangs at its corners; `depth` [m] at the centre.
-inline std::vector<Vec3> dome(const fem::HexMesh& mesh, double depth, double length = 0.8128) {
+inline std::vector<Vec3> dome(const fem::Mesh& mesh, double depth, double length = 0.8128) {
   std::vector<Vec3> position = mesh.nodes;
   for (Vec3& p : position) {
     const double y = 2.0 * p.y() / length, z = 2.0 * p.z() / length;

@@ -32,7 +32,7 @@ io::FluidSnapshot snapshot_of(const FormulaFluid& fluid, const TemporaryFolder& 
 
 /// A canopy at two instants and a flow at the second.
 void write_run(const TemporaryFolder& folder) {
-  const fem::HexMesh mesh = test::square_plate(12);
+  const fem::Mesh mesh = test::square_plate(12);
   const std::vector<Vec3> rest(mesh.nodes.size(), Vec3::Zero());
   io::write_canopy(folder / "canopy_000000.vtu", mesh, mesh.nodes, rest, {}, 0.0);
   io::write_canopy(folder / "canopy_000001.vtu", mesh, test::dome(mesh, 0.3), rest, {}, 0.5);
@@ -81,9 +81,9 @@ TEST(FlowField, derived_quantities_of_a_vortex_converge_to_theory) {
 
 TEST(Canopy, vtk_reads_the_mesh_and_its_arrays) {
   const TemporaryFolder folder("canopy_vtk");
-  const fem::HexMesh mesh = test::square_plate(3);
+  const fem::Mesh mesh = test::square_plate(3);
   const std::vector<Vec3> position = test::dome(mesh, 0.2), velocity(mesh.nodes.size(), Vec3(1.0, 2.0, 3.0));
-  const std::vector<double> energy(mesh.elements.size(), 0.25);
+  const std::vector<double> energy(mesh.hexahedra.size(), 0.25);
   io::write_canopy(folder / "canopy.vtu", mesh, position, velocity, {{"energy [J] <&>", energy}}, 0.75);
 
   vtkNew<vtkXMLUnstructuredGridReader> reader;
@@ -91,7 +91,7 @@ TEST(Canopy, vtk_reads_the_mesh_and_its_arrays) {
   reader->Update();
   vtkUnstructuredGrid* grid = reader->GetOutput();
   ASSERT_EQ(grid->GetNumberOfPoints(), static_cast<vtkIdType>(mesh.nodes.size()));
-  ASSERT_EQ(grid->GetNumberOfCells(), static_cast<vtkIdType>(mesh.elements.size()));
+  ASSERT_EQ(grid->GetNumberOfCells(), static_cast<vtkIdType>(mesh.hexahedra.size()));
   EXPECT_EQ(grid->GetCellType(0), VTK_HEXAHEDRON);
   for (vtkIdType n = 0; n < grid->GetNumberOfPoints(); ++n)
     for (int a = 0; a < 3; ++a) {

@@ -1,17 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "fem/hex_mesh.hpp"
-
-#include <fmt/format.h>
+#include "fem/thin_solid.hpp"
 
 #include <Eigen/Geometry>
 #include <algorithm>
-#include <cmath>
 #include <limits>
 #include <optional>
 #include <set>
 #include <tuple>
 
-#include "core/error.hpp"
 #include "fem/hex_topology.hpp"
 
 namespace drogue::fem {
@@ -33,10 +29,10 @@ Face sorted(Face face) {
 }
 
 /// Faces that belong to one element only, as sorted node numbers, in order.
-std::vector<Face> boundary_faces(const HexMesh& mesh) {
+std::vector<Face> boundary_faces(const Mesh& mesh) {
   std::vector<Face> all;
-  all.reserve(6 * mesh.elements.size());
-  for (const auto& element : mesh.elements) {
+  all.reserve(6 * mesh.hexahedra.size());
+  for (const auto& element : mesh.hexahedra) {
     for (int direction = 0; direction < 3; ++direction) {
       for (int side = 0; side < 2; ++side) all.push_back(sorted(face_of(element, direction, side)));
     }
@@ -52,7 +48,7 @@ std::vector<Face> boundary_faces(const HexMesh& mesh) {
   return boundary;
 }
 
-double mean_edge_length(const HexMesh& mesh, const std::array<int, 8>& element, int direction) {
+double mean_edge_length(const Mesh& mesh, const std::array<int, 8>& element, int direction) {
   double sum = 0.0;
   for (const auto& [first, last] : hex_edge[direction])
     sum += (mesh.nodes[element[last]] - mesh.nodes[element[first]]).norm();
@@ -60,7 +56,7 @@ double mean_edge_length(const HexMesh& mesh, const std::array<int, 8>& element, 
 }
 
 /// The direction in which an element spans the solid: both its faces are free; if that holds of several, the shortest.
-std::optional<int> thickness_direction(const HexMesh& mesh, const std::array<int, 8>& element,
+std::optional<int> thickness_direction(const Mesh& mesh, const std::array<int, 8>& element,
                                        const std::vector<Face>& boundary) {
   const auto is_free = [&](int direction, int side) {
     return std::binary_search(boundary.begin(), boundary.end(), sorted(face_of(element, direction, side)));
@@ -78,7 +74,7 @@ std::optional<int> thickness_direction(const HexMesh& mesh, const std::array<int
 }
 
 /// Adds to each node of a bilinear face its share of the area, by 2x2 Gauss points.
-void lump_area(const HexMesh& mesh, const Face& face, std::vector<double>& area) {
+void lump_area(const Mesh& mesh, const Face& face, std::vector<double>& area) {
   constexpr int sign[4][2] = {{-1, -1}, {1, -1}, {1, 1}, {-1, 1}};
   for (const auto& [qx, qy] : sign) {
     const double xi = gauss_abscissa * qx, eta = gauss_abscissa * qy;
@@ -94,62 +90,7 @@ void lump_area(const HexMesh& mesh, const Face& face, std::vector<double>& area)
 
 }  // namespace
 
-HexMesh make_plate(const PlateDescription& plate) {
-  const auto& [along_1, along_2, through] = plate.elements;
-  if (plate.normal < 0 || plate.normal > 2) {
-    throw InputError(fmt::format("the plate's normal is axis {}; expected 0, 1 or 2", plate.normal));
-  }
-  if (!(plate.size[0] > 0.0 && plate.size[1] > 0.0 && plate.thickness > 0.0)) {
-    throw InputError(fmt::format("the plate measures {} x {} x {} m; expected positive lengths", plate.size[0],
-                                 plate.size[1], plate.thickness));
-  }
-  if (along_1 < 1 || along_2 < 1 || through < 1) {
-    throw InputError(
-        fmt::format("the plate has {} x {} x {} elements; expected at least one each way", along_1, along_2, through));
-  }
-  const int axis_1 = (plate.normal + 1) % 3, axis_2 = (plate.normal + 2) % 3;
-  HexMesh mesh;
-  for (int k = 0; k <= through; ++k) {
-    for (int j = 0; j <= along_2; ++j) {
-      for (int i = 0; i <= along_1; ++i) {
-        Vec3 node = plate.centre;
-        node[axis_1] += plate.size[0] * (static_cast<double>(i) / along_1 - 0.5);
-        node[axis_2] += plate.size[1] * (static_cast<double>(j) / along_2 - 0.5);
-        node[plate.normal] += plate.thickness * (static_cast<double>(k) / through - 0.5);
-        mesh.nodes.push_back(node);
-      }
-    }
-  }
-  const int row = along_1 + 1, layer = row * (along_2 + 1);
-  for (int k = 0; k < through; ++k) {
-    for (int j = 0; j < along_2; ++j) {
-      for (int i = 0; i < along_1; ++i) {
-        const int n = i + row * j + layer * k;
-        mesh.elements.push_back({n, n + 1, n + 1 + row, n + row,  //
-                                 n + layer, n + 1 + layer, n + 1 + row + layer, n + row + layer});
-      }
-    }
-  }
-  return mesh;
-}
-
-std::vector<int> corner_nodes(const HexMesh& mesh, double patch) {
-  if (mesh.nodes.empty()) return {};
-  Box box{mesh.nodes.front(), mesh.nodes.front()};
-  for (const Vec3& node : mesh.nodes) {
-    box.lower = box.lower.cwiseMin(node);
-    box.upper = box.upper.cwiseMax(node);
-  }
-  const double reach = patch + 1e-9 * box.size().maxCoeff();
-  std::vector<int> nodes;
-  for (std::size_t i = 0; i < mesh.nodes.size(); ++i) {
-    const Vec3 distance = (mesh.nodes[i] - box.lower).cwiseMin(box.upper - mesh.nodes[i]);
-    if (distance.maxCoeff() <= reach) nodes.push_back(static_cast<int>(i));
-  }
-  return nodes;
-}
-
-std::vector<std::array<int, 2>> thickness_pairs(const HexMesh& mesh, double max_thickness) {
+std::vector<std::array<int, 2>> thickness_pairs(const Mesh& mesh, double max_thickness) {
   const std::vector<Face> boundary = boundary_faces(mesh);
   struct Candidate {
     double length;
@@ -157,7 +98,7 @@ std::vector<std::array<int, 2>> thickness_pairs(const HexMesh& mesh, double max_
     bool operator<(const Candidate& other) const { return std::tie(length, pair) < std::tie(other.length, other.pair); }
   };
   std::set<Candidate> candidates;
-  for (const auto& element : mesh.elements) {
+  for (const auto& element : mesh.hexahedra) {
     const auto direction = thickness_direction(mesh, element, boundary);
     if (!direction) continue;
     for (const auto& [first, last] : hex_edge[*direction]) {
@@ -178,14 +119,29 @@ std::vector<std::array<int, 2>> thickness_pairs(const HexMesh& mesh, double max_
   return pairs;
 }
 
-std::vector<double> pair_areas(const HexMesh& mesh, const std::vector<std::array<int, 2>>& pairs) {
+std::vector<Vec3> area_normals(const Mesh& mesh) {
+  std::vector<Vec3> normals(mesh.nodes.size(), Vec3::Zero());
+  const auto add = [&](const auto& element) {
+    for (std::size_t a = 0; a < element.size(); ++a) {
+      const Vec3& corner = mesh.nodes[element[a]];
+      const Vec3 next = mesh.nodes[element[(a + 1) % element.size()]] - corner;
+      const Vec3 last = mesh.nodes[element[(a + element.size() - 1) % element.size()]] - corner;
+      normals[element[a]] += 0.5 * next.cross(last);
+    }
+  };
+  std::ranges::for_each(mesh.quadrilaterals, add);
+  std::ranges::for_each(mesh.triangles, add);
+  return normals;
+}
+
+std::vector<double> pair_areas(const Mesh& mesh, const std::vector<std::array<int, 2>>& pairs) {
   std::vector<int> partner(mesh.nodes.size(), -1);
   for (const auto& [a, b] : pairs) {
     partner[a] = b;
     partner[b] = a;
   }
   std::vector<double> area(mesh.nodes.size(), 0.0);
-  for (const auto& element : mesh.elements) {
+  for (const auto& element : mesh.hexahedra) {
     for (int direction = 0; direction < 3; ++direction) {
       const bool spans = std::any_of(std::begin(hex_edge[direction]), std::end(hex_edge[direction]),
                                      [&](const auto& e) { return partner[element[e[0]]] == element[e[1]]; });

@@ -9,12 +9,12 @@
 namespace drogue::fem {
 namespace {
 
-TEST(HexMesh, plate_has_its_size_place_and_orientation_about_every_axis) {
+TEST(Mesh, plate_has_its_size_place_and_orientation_about_every_axis) {
   for (int normal = 0; normal < 3; ++normal) {
     const Vec3 centre(1.0, -2.0, 0.5);
-    const HexMesh mesh = make_plate({centre, normal, {0.6, 0.4}, 0.01, {6, 4, 2}});
+    const Mesh mesh = make_plate({centre, normal, {0.6, 0.4}, 0.01, {6, 4, 2}});
     EXPECT_EQ(mesh.nodes.size(), 7u * 5u * 3u);
-    EXPECT_EQ(mesh.elements.size(), 6u * 4u * 2u);
+    EXPECT_EQ(mesh.hexahedra.size(), 6u * 4u * 2u);
     Box box{mesh.nodes[0], mesh.nodes[0]};
     for (const Vec3& p : mesh.nodes) box = {box.lower.cwiseMin(p), box.upper.cwiseMax(p)};
     EXPECT_NEAR(box.size()[normal], 0.01, 1e-15);
@@ -22,22 +22,22 @@ TEST(HexMesh, plate_has_its_size_place_and_orientation_about_every_axis) {
     EXPECT_NEAR(box.size()[(normal + 2) % 3], 0.4, 1e-15);
     EXPECT_LT((0.5 * (box.lower + box.upper) - centre).norm(), 1e-15);
     // The structure refuses inverted elements.
-    const Structure body(mesh, NeoHookean(1e3, 0.3, 0.3), {.density = 2.0}, {});
+    const Structure body = solid(mesh, NeoHookean(1e3, 0.3, 0.3), {.density = 2.0}, {});
     const auto volume = body.volume();
     EXPECT_NEAR(std::accumulate(volume.begin(), volume.end(), 0.0), 0.6 * 0.4 * 0.01, 1e-16);
     EXPECT_NEAR(body.own_mass()[0], 2.0 * 0.1 * 0.1 * 0.005 / 8.0, 1e-18);
   }
 }
 
-TEST(HexMesh, impossible_plates_are_refused) {
+TEST(Mesh, impossible_plates_are_refused) {
   EXPECT_THROW(make_plate({Vec3::Zero(), 3, {1.0, 1.0}, 0.1, {1, 1, 1}}), InputError);
   EXPECT_THROW(make_plate({Vec3::Zero(), 0, {1.0, 0.0}, 0.1, {1, 1, 1}}), InputError);
   EXPECT_THROW(make_plate({Vec3::Zero(), 0, {1.0, 1.0}, -0.1, {1, 1, 1}}), InputError);
   EXPECT_THROW(make_plate({Vec3::Zero(), 0, {1.0, 1.0}, 0.1, {1, 0, 1}}), InputError);
 }
 
-TEST(HexMesh, corner_patch_grows_with_its_length) {
-  const HexMesh mesh = make_plate({Vec3::Zero(), 0, {0.8128, 0.8128}, 5e-3, {52, 52, 1}});
+TEST(Mesh, corner_patch_grows_with_its_length) {
+  const Mesh mesh = make_plate({Vec3::Zero(), 0, {0.8128, 0.8128}, 5e-3, {52, 52, 1}});
   const double h = 0.8128 / 52;
   EXPECT_EQ(corner_nodes(mesh, 0.0).size(), 8u);
   EXPECT_EQ(corner_nodes(mesh, 0.99 * h).size(), 8u);
@@ -49,8 +49,8 @@ TEST(HexMesh, corner_patch_grows_with_its_length) {
   }
 }
 
-TEST(HexMesh, pairs_join_the_faces_of_a_thin_solid) {
-  const HexMesh mesh = make_plate({Vec3::Zero(), 1, {0.6, 0.4}, 0.01, {6, 4, 1}});
+TEST(Mesh, pairs_join_the_faces_of_a_thin_solid) {
+  const Mesh mesh = make_plate({Vec3::Zero(), 1, {0.6, 0.4}, 0.01, {6, 4, 1}});
   const auto pairs = thickness_pairs(mesh, 0.01);
   ASSERT_EQ(pairs.size(), 7u * 5u);
   for (const auto& [a, b] : pairs) {
@@ -61,15 +61,15 @@ TEST(HexMesh, pairs_join_the_faces_of_a_thin_solid) {
   EXPECT_TRUE(thickness_pairs(make_plate({Vec3::Zero(), 1, {0.6, 0.4}, 0.01, {6, 4, 2}}), 1.0).empty());
 }
 
-TEST(HexMesh, pairs_of_a_strip_one_element_wide_span_its_thickness) {
-  const HexMesh mesh = block({1.0, 0.1, 0.02}, {10, 1, 1});
+TEST(Mesh, pairs_of_a_strip_one_element_wide_span_its_thickness) {
+  const Mesh mesh = block({1.0, 0.1, 0.02}, {10, 1, 1});
   const auto pairs = thickness_pairs(mesh, 1.0);
   ASSERT_EQ(pairs.size(), 22u);
   for (const auto& [a, b] : pairs) EXPECT_NEAR((mesh.nodes[b] - mesh.nodes[a]).norm(), 0.02, 1e-15);
 }
 
-TEST(HexMesh, pair_areas_sum_to_the_area_of_the_middle_surface) {
-  HexMesh mesh = make_plate({Vec3::Zero(), 2, {0.6, 0.4}, 0.01, {6, 4, 1}});
+TEST(Mesh, pair_areas_sum_to_the_area_of_the_middle_surface) {
+  Mesh mesh = make_plate({Vec3::Zero(), 2, {0.6, 0.4}, 0.01, {6, 4, 1}});
   auto pairs = thickness_pairs(mesh, 0.02);
   auto areas = pair_areas(mesh, pairs);
   EXPECT_NEAR(std::accumulate(areas.begin(), areas.end(), 0.0), 0.24, 1e-14);

@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "fem/element_group.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace drogue::fem {
+
+ElementGroup::ElementGroup(const GroupDescription& description, std::string family, int nodes_per_element,
+                           std::vector<int> nodes, std::vector<int> numbers)
+    : ForceGroup(nodes_per_element, std::move(nodes)),
+      family_(std::move(family)),
+      region_(description.region),
+      bounds_(description.volume_ratio),
+      number_(std::move(numbers)),
+      ratios_(batches()),
+      lightness_(count(), {1.0, 1.0, 1.0}),
+      frequency_bound_(count()) {}
+
+void ElementGroup::set_time(double time) {
+  fibre_ = {region_.active.tension(Vec3::Zero(), time), region_.active.direction};
+}
+
+std::string ElementGroup::name_of(int element) const { return fmt::format("{} {}", family_, number_[element]); }
+
+bool ElementGroup::compute_forces(int batch, std::span<const Vec3> x) {
+  const VolumeRatio j = forces_of(batch, x);
+  ratios_[batch] = j;
+  bool inside = true;
+  for (int lane = 0; lane < lanes; ++lane) inside &= j.smallest[lane] >= bounds_[0] && j.largest[lane] <= bounds_[1];
+  return inside;
+}
+
+void ElementGroup::bound_frequencies(int batch, std::span<const Vec3> x) {
+  const std::array<Pack, 3> stiffness = stiffness_of(batch, x);
+  const int first = batch * lanes;
+  for (int e = first; e < std::min(first + lanes, count()); ++e) {
+    frequency_bound_[e] = 0.0;
+    for (int direction = 0; direction < 3; ++direction) {
+      frequency_bound_[e] += lightness_[e][direction] * stiffness[direction][e - first];
+    }
+  }
+}
+
+double ElementGroup::largest_squared_frequency() const {
+  return *std::ranges::max_element(frequency_bound_) / region_.density;
+}
+
+void ElementGroup::add_stiffness(std::span<double> nodal_stiffness) const {
+  for (int e = 0; e < count(); ++e) {
+    const double share = frequency_bound_[e] * volume_of(e) / nodes_per_element();
+    for (const int node : nodes_of(e)) nodal_stiffness[node] += share;
+  }
+}
+
+ElementGroup::Extreme ElementGroup::worst() const {
+  Extreme worst{0, 1.0, 1.0};
+  const auto consider = [&](int element, double j, double excess) {
+    if (std::isnan(excess)) excess = INFINITY;
+    if (excess > worst.excess) worst = {element, j, excess};
+  };
+  for (int e = 0; e < count(); ++e) {
+    const double smallest = ratios_[e / lanes].smallest[e % lanes], largest = ratios_[e / lanes].largest[e % lanes];
+    consider(e, smallest, smallest > 0.0 ? bounds_[0] / smallest : 1.0 / bounds_[0] - smallest);
+    consider(e, largest, largest / bounds_[1]);
+  }
+  return worst;
+}
+
+double ElementGroup::elastic_energy(std::span<const Vec3> x) const {
+  double sum = 0.0;
+  for (int e = 0; e < count(); e += lanes) {
+    const Pack of_batch = energy_of(e / lanes, x);
+    for (int lane = 0; lane < std::min(lanes, count() - e); ++lane) sum += of_batch[lane];
+  }
+  return sum;
+}
+
+std::array<double, 2> ElementGroup::volume_ratio_range(std::span<const Vec3> x) const {
+  std::array<double, 2> range{INFINITY, -INFINITY};
+  for (int batch = 0; batch < batches(); ++batch) {
+    const VolumeRatio j = volume_ratio_of(batch, x);
+    for (int lane = 0; lane < lanes; ++lane) {
+      range[0] = std::min(range[0], j.smallest[lane]);
+      range[1] = std::max(range[1], j.largest[lane]);
+    }
+  }
+  return range;
+}
+
+}  // namespace drogue::fem

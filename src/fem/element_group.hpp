@@ -1,0 +1,114 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The elements of one family in one region, behind an interface that is called once per batch of elements. What the
+// families have in common is in element_batch.hpp, their kernels in hexahedra.cpp, membranes.cpp and cables.cpp.
+#pragma once
+
+#include <array>
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "fem/element_batch.hpp"
+#include "fem/mesh.hpp"
+#include "fem/region.hpp"
+
+namespace drogue::fem {
+
+struct GroupDescription {
+  const Region& region;                ///< outlives the group
+  std::array<double, 2> volume_ratio;  ///< bounds of J that compute_forces() watches
+};
+
+/// Elements of one kind with the forces on their nodes.
+class ForceGroup {
+ public:
+  virtual ~ForceGroup() = default;
+
+  int count() const { return static_cast<int>(nodes_.size()) / nodes_per_element_; }
+  int batches() const { return (count() + lanes - 1) / lanes; }
+  int nodes_per_element() const { return nodes_per_element_; }
+  std::span<const int> nodes_of(int element) const {
+    return std::span(nodes_).subspan(static_cast<std::size_t>(element) * nodes_per_element_, nodes_per_element_);
+  }
+
+  /// Forces of a batch at positions `x`, for force_on() to read; whether the state is within bounds.
+  virtual bool compute_forces(int batch, std::span<const Vec3> x) = 0;
+  /// Where the x component of the force on a node of an element is kept; y and z follow at distances of `lanes`.
+  virtual const double* force_on(int element, int local_node) const = 0;
+
+ protected:
+  ForceGroup(int nodes_per_element, std::vector<int> nodes)
+      : nodes_per_element_(nodes_per_element), nodes_(std::move(nodes)) {}
+
+ private:
+  int nodes_per_element_;
+  std::vector<int> nodes_;
+};
+
+class ElementGroup : public ForceGroup {
+ public:
+  const Region& region() const { return region_; }
+  /// Such as "hexahedron 12", with its number in the mesh.
+  std::string name_of(int element) const;
+
+  /// The active stress of `time` [s] acts from now on.
+  void set_time(double time);
+  bool compute_forces(int batch, std::span<const Vec3> x) override;
+
+  /// Density times squared frequency of a batch's elements [Pa/m^2] from above, as deformed, each direction of
+  /// directional_stiffness() weighted with its lightness.
+  void bound_frequencies(int batch, std::span<const Vec3> x);
+  /// Own mass over the mass that moves along each direction; 1 to begin with.
+  void set_lightness(int element, const std::array<double, 3>& lightness) { lightness_[element] = lightness; }
+  /// Largest squared frequency of an element [1/s^2], of the last bound_frequencies() of all batches.
+  double largest_squared_frequency() const;
+
+  struct Extreme {
+    int element;
+    double volume_ratio, excess;  ///< how far out of bounds, as a factor; infinite for no number
+  };
+  /// The element that was furthest out of bounds in the last compute_forces().
+  Extreme worst() const;
+
+  virtual void add_volumes(std::span<double> nodal_volume) const = 0;  ///< [m^3]
+  /// Adds to each node a stiffness [N/m] such that the matrix with their sum on its diagonal exceeds that of the
+  /// elements, of the last bound_frequencies() of all batches with lightness 1.
+  void add_stiffness(std::span<double> nodal_stiffness) const;
+  double elastic_energy(std::span<const Vec3> x) const;  ///< [J]
+  std::array<double, 2> volume_ratio_range(std::span<const Vec3> x) const;
+
+ protected:
+  ElementGroup(const GroupDescription& description, std::string family, int nodes_per_element, std::vector<int> nodes,
+               std::vector<int> numbers);
+  const ActiveFibre& fibre() const { return fibre_; }
+
+ private:
+  virtual VolumeRatio forces_of(int batch, std::span<const Vec3> x) = 0;
+  virtual VolumeRatio volume_ratio_of(int batch, std::span<const Vec3> x) const = 0;
+  virtual Pack energy_of(int batch, std::span<const Vec3> x) const = 0;
+  virtual std::array<Pack, 3> stiffness_of(int batch, std::span<const Vec3> x) const = 0;
+  virtual double volume_of(int element) const = 0;  // [m^3]
+
+  std::string family_;
+  const Region& region_;
+  ActiveFibre fibre_;
+  std::array<double, 2> bounds_;
+  std::vector<int> number_;
+  std::vector<VolumeRatio> ratios_;
+  std::vector<std::array<double, 3>> lightness_;
+  std::vector<double> frequency_bound_;  ///< [Pa/m^2]
+};
+
+/// `elements` are numbers in the mesh. Throw InputError for a node number out of range and for an inverted or flat
+/// element.
+std::unique_ptr<ElementGroup> make_hexahedra(const Solid& solid, const GroupDescription& group, const Mesh& mesh,
+                                             const std::vector<int>& elements);
+std::unique_ptr<ElementGroup> make_quadrilaterals(const Membrane& membrane, const GroupDescription& group,
+                                                  const Mesh& mesh, const std::vector<int>& elements);
+std::unique_ptr<ElementGroup> make_triangles(const Membrane& membrane, const GroupDescription& group, const Mesh& mesh,
+                                             const std::vector<int>& elements);
+std::unique_ptr<ElementGroup> make_cables(const Cable& cable, const GroupDescription& group, const Mesh& mesh,
+                                          const std::vector<int>& elements);
+
+}  // namespace drogue::fem

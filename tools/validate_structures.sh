@@ -1,0 +1,57 @@
+#!/bin/bash
+# SPDX-License-Identifier: GPL-3.0-or-later
+# Runs the structures without a fluid over loads and meshes, and writes their table of docs/validation.md:
+# tools/validate_structures.sh [NAME...] makes the runs named, without names it makes all; with --table it only writes the table
+# from what is there (tools/validation_runs.sh).
+set -euo pipefail
+cd "$(dirname "${BASH_SOURCE[0]}")/.."
+. tools/validation_runs.sh
+runs=runs/validation_structures
+
+# membrane LOAD HEIGHT, cable LENGTH SAG, beam ALPHA DEFLECTION SHORTENING: lines of the matrix.
+membrane() {
+  local n kind
+  for n in 6 12 24; do
+    for kind in quadrilaterals triangles; do
+      echo "membrane-$1-$n-$kind|membrane_inflation_circular|p a/(G h) = $1, $n x 4 $kind around|--set body.membrane.pressure.0.pressure=$1*100 --set reference.apex_over_radius.value=$2 --set body.membrane.mesh.elements=[$n,$n] --set body.membrane.mesh.triangles=$([[ $kind == triangles ]] && echo true || echo false)"
+    done
+  done
+}
+cable() {
+  echo "cable-$1|cable_catenary|length $1 of the span|--set body.line.cable.rope.length=$1 --set reference.sag_over_span.value=$2"
+}
+beam() {
+  local n
+  for n in 120 240; do
+    echo "beam-$1-$n|cantilever_large_deflection|alpha = $1, $n elements|--set body.beam.mesh.elements=[$n,1,2] --set body.beam.force.0.force=[0,0,$1] --set reference.deflection_over_length.value=$2 --set reference.shortening_over_length.value=$3"
+  done
+}
+
+# name | case | what it changes | arguments of ./drogue run
+matrix() {
+  local n
+  membrane 0.1 0.19924
+  membrane 0.5 0.37430
+  membrane 1.0 0.53121
+  cable 1.01 0.061451
+  cable 1.1 0.200301
+  cable 1.2 0.292344
+  cable 2 0.796388
+  echo "pendulum|cable_pendulum|four cables|"
+  beam 1 0.301721 0.056433
+  beam 4 0.669964 0.328941
+  for n in 8 16 32; do echo "cook-$n|cook_membrane|$n x $n|--set body.panel.mesh.elements=[$n,$n,1]"; done
+  for n in 8 16 32; do echo "airbag-$n|airbag_square|$n x $n, tension field|--set body.airbag.mesh.elements=[$n,$n]"; done
+  echo "airbag-16-compressed|airbag_square|16 x 16, bears compression|--set body.airbag.wrinkling=false"
+}
+
+[[ ${1:-} == --table ]] || make_runs "$@"
+{
+  heading run 'what differs' result reference difference
+  rows membrane apex_over_radius reference difference
+  rows cable sag_over_span reference difference
+  rows pendulum period reference difference
+  rows beam deflection_over_length reference difference
+  rows cook tip_displacement reference difference
+  rows airbag centre_displacement reference difference
+} | write_table 'structures'
