@@ -7,6 +7,7 @@
 
 namespace drogue::app {
 
+
 /// Throws InputError.
 geometry::Shape read_shape(Section section);
 

@@ -37,7 +37,7 @@ Trace trace_of(int n, double end, F c_d, const std::string& body = "sheet") {
 const Body sheet{
     "sheet", 1.0,
     ElasticBody{
-        .mesh = {}, .material = fem::SaintVenantKirchhoff(1.0, 0.0), .structure = {}, .holds = {}, .coupling = {}}};
+        .mesh = {}}};
 
 Body rigid(const std::string& translation_x) {
   RigidBody body;

@@ -87,7 +87,7 @@ TEST(CoupledPoints, a_membrane_is_one_layer_of_markers_and_a_cable_a_line) {
   for (int p = 0; p < points.size(); ++p) {
     const Vec3& x = mesh.nodes[points.nodes[p][0]];
     if (points.nodes[p][0] < sheet_nodes) {
-      if (x.cwiseAbs().maxCoeff() > half - 3 * dx || x.norm() < 6 * dx) continue;
+      if (x.cwiseAbs().maxCoeff() > half - 4 * dx || x.norm() < 6 * dx) continue;
       EXPECT_NEAR(points.dragged_mass[p], fluid_density * 0.25 * dx * dx * dx * per_cell,
                   1e-3 * points.dragged_mass[p]);
       EXPECT_LT((points.normal[p] - Vec3::UnitZ()).norm(), 1e-12);
