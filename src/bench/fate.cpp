@@ -50,9 +50,9 @@ std::unique_ptr<app::Simulation> make_simulation(const app::Case& c, const std::
 }
 
 bool is_finite(const app::Simulation& simulation) {
-  const fluid::FluidSolver& fluid = simulation.fluid();
+  const fluid::FluidSolver& fluid = *simulation.fluid();
   return std::isfinite(fluid.mass_and_momentum()[0]) && std::ranges::all_of(simulation.bodies(), [&](const auto& body) {
-           const app::BodyRow row = body->measure(fluid);
+           const app::BodyRow row = body->measure(&fluid);
            return row.force.allFinite() && row.centre.allFinite();
          });
 }
@@ -77,7 +77,7 @@ double inlet_speed(const app::Case& c) {
 
 /// `fate` is up to date also when a step throws.
 void step_to_end(app::Simulation& simulation, const app::Case& c, Bound bound, Fate& fate) {
-  const fluid::FluidSolver& fluid = simulation.fluid();
+  const fluid::FluidSolver& fluid = *simulation.fluid();
   const bool energy = bound == Bound::energy;
   const double unit = energy ? kinetic_energy(fluid) : inlet_speed(c);
   bool is_number = true;

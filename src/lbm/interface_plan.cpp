@@ -190,7 +190,7 @@ std::vector<Host> plan_interface(const amr::Forest& forest, const fluid::Specifi
     const Index3 first = edge_line(f, g);
     const auto cells = above.inner_cells({id, first}, f, g);
     for (const Place& p : cells)
-      hosts.line(p.block, p.cell, along).coarse.push_back({id, first, f + g, double(weight) / cells.size(), 0});
+      hosts.line(p.block, p.cell, along).coarse.push_back({id, first, f + g, double(weight) / cells.size()});
   });
   for_edges(forest, coarse + 1, [&](int id, const Index3& f, const Index3& g, int along) {
     const int weight = below.weight(id, f, g);
@@ -202,7 +202,7 @@ std::vector<Host> plan_interface(const amr::Forest& forest, const fluid::Specifi
       Index3 cell;
       for (int a = 0; a < 3; ++a) cell[a] = ((ghost.index[a] & 1) * n + p.cell[a]) / 2;
       hosts.line(ghost.parent, cell, along)
-          .fine.push_back({id, first, f + g, double(weight) / cells.size(), ghost.index[along] & 1});
+          .fine.push_back({id, first, f + g, double(weight) / cells.size()});
     }
   });
   return hosts.hosts;

@@ -33,7 +33,6 @@ struct DiagonalTerm {
   int block;
   Index3 first, direction;
   double weight;
-  int half;  ///< of the host's line that a fine line lies beside
 };
 
 struct Host {

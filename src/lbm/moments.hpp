@@ -256,12 +256,14 @@ class MomentField {
     return inner_.data() + inner_of_[id] * inner_bytes + (at * (most_layers - 1) + layer - 1) * Layout::bytes;
   }
 
-  /// Adds to density or velocity of one cell of a leaf.
-  void add(int id, const Index3& cell, int m, Real value) {
+  /// Adds to density or velocity of one cell of a leaf; returns by how much it changed, which rounding decides.
+  double add(int id, const Index3& cell, int m, Real value) {
     const auto [x, y, z] = cell;
     Real& sum = Layout::macro(row(id, y, z), m)[x];
+    const Real before = sum;
     sum += value;
     if (x < depth_[id][0] || x >= amr::block_size - depth_[id][1]) Layout::macro(column(id, x, z), m)[y] = sum;
+    return double{sum} - double{before};
   }
 
   void refresh_columns(int id) {

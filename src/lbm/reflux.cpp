@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "lbm/reflux.hpp"
 
+#include <numeric>
 #include <utility>
 
 #include "lbm/d3q19.hpp"
@@ -72,8 +73,7 @@ Reflux<S>::Reflux(const amr::Forest& forest, const fluid::Specification& specifi
     : forest_(forest),
       third_order_(specification.collision != fluid::Collision::bgk),
       hosts_(plan_interface(forest, specification, coarse)) {
-  for (const Host& host : hosts_)
-    entered_.push_back({std::vector<Sheet>(host.faces.size()), std::vector<Vec<Real>>(host.lines.size())});
+  for (const Host& host : hosts_) cells_ += static_cast<int>(host.faces.size()) * n * n;
 }
 
 /// Adds the mass that a step carries from the outer to the inner side.
@@ -138,70 +138,65 @@ auto Reflux<S>::entering(const MomentField<S>& field, const DiagonalTerm& term, 
   return static_cast<Real>(term.weight) * population_along(cells, keep, third_order_, term.direction);
 }
 
+/// Mass that a step carries inwards on the coarse or the fine side of a host, in rho of a cell of that side.
+template <class S>
+double Reflux<S>::carried(const MomentField<S>& field, const Host& host, bool fine, Real keep) const {
+  Sheet sheet{};
+  for (const Host::Face& face : host.faces) {
+    if (!fine) add_sheet(field, face.coarse, keep, sheet);
+    for (int quarter = 0; fine && quarter < 4; ++quarter) add_sheet(field, face.fine[quarter], keep, sheet);
+  }
+  for (const Host::Line& line : host.lines)
+    for (const DiagonalTerm& term : fine ? line.fine : line.coarse) sheet[0] += entering(field, term, line.along, keep);
+  double sum = 0.0;
+  for (const Vec<Real>& row : sheet)
+    for (int lane = 0; lane < lanes; ++lane) sum += row[lane];
+  return sum;
+}
+
+/// Sum over the hosts, in their order whoever computes the terms.
+template <class S>
+template <class F>
+double Reflux<S>::sum_over_hosts(const F& of_host) const {
+  const int count = static_cast<int>(hosts_.size());
+  std::vector<double> part(count);
+#pragma omp parallel for schedule(dynamic, 1)
+  for (int i = 0; i < count; ++i) part[i] = of_host(hosts_[i]);
+  return std::accumulate(part.begin(), part.end(), 0.0);
+}
+
 template <class S>
 void Reflux<S>::count_fine_step(const MomentField<S>& field, const Relaxation& relaxation) {
   const Real keep = static_cast<Real>(1.0 - 1.0 / relaxation.tau);
-  constexpr Real volume = Real(1) / 8;
-  constexpr IndexVec<Real> even{0, 2, 4, 6, 8, 10, 12, 14, 16, 18, 20, 22, 24, 26, 28, 30};
-  const int count = static_cast<int>(hosts_.size());
-#pragma omp parallel for schedule(dynamic, 1)
-  for (int i = 0; i < count; ++i) {
-    const Host& host = hosts_[i];
-    for (std::size_t f = 0; f < host.faces.size(); ++f)
-      for (int upper = 0; upper < 2; ++upper) {
-        Sheet left{}, right{};
-        add_sheet(field, host.faces[f].fine[2 * upper], keep, left);
-        add_sheet(field, host.faces[f].fine[2 * upper + 1], keep, right);
-        for (int r = 0; r < n / 2; ++r) {
-          const Vec<Real> a = left[2 * r] + left[2 * r + 1], b = right[2 * r] + right[2 * r + 1];
-          entered_[i].face[f][upper * n / 2 + r] +=
-              volume * (__builtin_shuffle(a, b, even) + __builtin_shuffle(a, b, even + 1));
-        }
-      }
-    for (std::size_t l = 0; l < host.lines.size(); ++l)
-      for (const DiagonalTerm& term : host.lines[l].fine) {
-        const Vec<Real> v = entering(field, term, host.lines[l].along, keep);
-        for (int c = 0; c < n / 2; ++c)
-          entered_[i].line[l][term.half * n / 2 + c] += volume * (v[2 * c] + v[2 * c + 1]);
-      }
-  }
+  constexpr double volume = 1.0 / 8.0;
+  owed_ += volume * sum_over_hosts([&](const Host& host) { return carried(field, host, true, keep); });
 }
 
 template <class S>
 void Reflux<S>::settle(const MomentField<S>& start, const Relaxation& relaxation, MomentField<S>& end) {
   const Real keep = static_cast<Real>(1.0 - 1.0 / relaxation.tau);
-  const int count = static_cast<int>(hosts_.size());
-#pragma omp parallel for schedule(dynamic, 1)
-  for (int i = 0; i < count; ++i) {
-    const Host& host = hosts_[i];
-    Entered& entered = entered_[i];
-    for (std::size_t f = 0; f < host.faces.size(); ++f) {
-      const InterfaceFace& face = host.faces[f].coarse;
-      const int axis = face.face / 2;
-      Sheet carried{};
-      add_sheet(start, face, keep, carried);
+  owed_ -= sum_over_hosts([&](const Host& host) { return carried(start, host, false, keep); });
+  if (cells_ == 0) return;
+  const Real share = static_cast<Real>(owed_ / cells_);
+  owed_ -= sum_over_hosts([&](const Host& host) {
+    double given = 0.0;
+    for (const Host::Face& face : host.faces)
       for (int r = 0; r < n; ++r)
         for (int lane = 0; lane < lanes; ++lane) {
+          const int axis = face.coarse.face / 2;
           Index3 cell;
-          cell[axis] = face.face & 1 ? n - 1 : 0;
+          cell[axis] = face.coarse.face & 1 ? n - 1 : 0;
           cell[row_axis(axis)] = r;
           cell[lane_axis(axis)] = lane;
-          end.add(host.leaf, cell, drho, entered.face[f][r][lane] - carried[r][lane]);
+          given += end.add(host.leaf, cell, drho, share);
         }
-      entered.face[f] = Sheet{};
-    }
-    for (std::size_t l = 0; l < host.lines.size(); ++l) {
-      const Host::Line& line = host.lines[l];
-      Vec<Real> mass = entered.line[l];
-      for (const DiagonalTerm& term : line.coarse) mass -= entering(start, term, line.along, keep);
-      for (int c = 0; c < n; ++c) {
-        Index3 cell = line.first;
-        cell[line.along] = c;
-        end.add(host.leaf, cell, drho, mass[c]);
-      }
-      entered.line[l] = Vec<Real>{};
-    }
-  }
+    return given;
+  });
+}
+
+template <class S>
+void Reflux<S>::transfer_state(Archive& archive) {
+  archive.transfer("owed_mass", owed_);
 }
 
 #ifdef __F16C__

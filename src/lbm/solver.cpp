@@ -327,6 +327,7 @@ void BasicSolver<S>::transfer_state(Archive& archive) {
     archive.transfer(name + "/moments", std::span(field.block(leaves.begin), bytes));
     for (int id = leaves.begin; id < leaves.end; ++id) field.refresh_columns(id);
     if (forced_) l.lead = half_kick(level, l.time);
+    if (level < forest_.finest()) archive.transfer(name + "/interface", reflux_[level]);
   }
   for (int level = forest_.finest() - 1; level >= 0; --level) restrict_to_parents(level, levels_[level].now);
   archive.transfer("boundaries", fill_boundary_);

@@ -34,10 +34,7 @@ Trace trace_of(int n, double end, F c_d, const std::string& body = "sheet") {
   return trace;
 }
 
-const Body sheet{
-    "sheet", 1.0,
-    ElasticBody{
-        .mesh = {}}};
+const Body sheet{"sheet", 1.0, ElasticBody{}};
 
 Body rigid(const std::string& translation_x) {
   RigidBody body;
