@@ -124,8 +124,8 @@ TEST(CaseErrors, words_that_are_not_known_are_named_with_the_list) {
        "case.toml:7: domain.x_max.type = \"oulet\" is not known; expected \"velocity\", \"outlet\", \"free_slip\", "
        "\"no_slip\" or \"periodic\"; did you mean outlet?"},
       {"neo_hookean", "steel",
-       "case.toml:29: body.plate.material.law = \"steel\" is not known; expected \"neo_hookean\" "
-       "or \"saint_venant_kirchhoff\""},
+       "case.toml:29: body.plate.material.law = \"steel\" is not known; expected \"neo_hookean\", "
+       "\"saint_venant_kirchhoff\", \"fabric\" or \"cable\""},
       {"normal = \"x\"", "normal = \"w\"", "case.toml:28: body.plate.mesh.normal = \"w\" is not known"},
       {"type = \"plate\"", "type = \"disc\"", "case.toml:28: body.plate.mesh.type = \"disc\" is not known"},
   });
