@@ -18,8 +18,8 @@
 // Waves slower than K come back: K / sqrt(4 omega^2 + K^2) of a plane wave of frequency omega at an outlet, K_in /
 // sqrt(omega^2 + K_in^2) at an inlet. The usual K is 1/4 c / L, with L the length of the domain along n (Rudy &
 // Strikwerda, J. Comput. Phys. 36 (1980) 55). An inlet and an outlet that face each other settle as exp(s t) with (s +
-// K_in)(2 s + K) + K_in K = 0. Twice the usual K and K_in = 2 K make that s = (-0.63 +- 0.33 i) c / L: within two
-// passages of sound, practically without oscillation.
+// K_in)(2 s + K) + K_in K = 0. Twice the usual K and K_in = 2 K make that s = (-0.63 +- 0.33 i) c / L. This
+// leaves out how long sound is on its way, L / c: an empty tunnel with two open ends oscillates more than it says.
 #pragma once
 
 #include <array>
