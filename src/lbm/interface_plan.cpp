@@ -51,14 +51,8 @@ class InterfaceLevel {
     const int outer = beside(inner, unit(axis, face & 1 ? 1 : -1));
     InterfaceFace result{inner, outer, face, {}};
     for (int e = 0; e < 4; ++e) {
-      const Index3 along = unit(e < 2 ? lane_axis(axis) : row_axis(axis), e & 1 ? 1 : -1);
-      const int next = beside(inner, along);
-      if (side(next) == Side::inner && side(beside(outer, along)) == Side::outer)
-        result.end[e] = End::flat;
-      else
-        result.end[e] = next != amr::none && forest_.block(next).kind == amr::Kind::boundary && is_open(next)
-                            ? End::open
-                            : End::closed;
+      const int next = beside(inner, unit(e < 2 ? lane_axis(axis) : row_axis(axis), e & 1 ? 1 : -1));
+      result.open[e] = next != amr::none && forest_.block(next).kind == amr::Kind::boundary && is_open(next);
     }
     return result;
   }
@@ -201,8 +195,7 @@ std::vector<Host> plan_interface(const amr::Forest& forest, const fluid::Specifi
       const amr::Block& ghost = forest.block(p.block);
       Index3 cell;
       for (int a = 0; a < 3; ++a) cell[a] = ((ghost.index[a] & 1) * n + p.cell[a]) / 2;
-      hosts.line(ghost.parent, cell, along)
-          .fine.push_back({id, first, f + g, double(weight) / cells.size()});
+      hosts.line(ghost.parent, cell, along).fine.push_back({id, first, f + g, double(weight) / cells.size()});
     }
   });
   return hosts.hosts;

@@ -13,18 +13,11 @@
 
 namespace drogue::lbm {
 
-/// How a block face of the interface goes on beyond one of its four ends.
-enum class End {
-  flat,    ///< in the same plane, as a face of the next block
-  closed,  ///< round an edge, or it ends at a wall
-  open,    ///< it ends at an open boundary
-};
-
 /// Two blocks of one level, inner and outer, with a face of the interface between them.
 struct InterfaceFace {
   int inner, outer;
-  int face;                ///< 0 to 5, of the inner block
-  std::array<End, 4> end;  ///< low and high end along the lanes, then along the rows
+  int face;                  ///< 0 to 5, of the inner block
+  std::array<bool, 4> open;  ///< ends at an open boundary: low and high along the lanes, then along the rows
 };
 
 /// A line of 16 cells whose populations of one diagonal direction add to the mass of the inner side with this weight,

@@ -11,40 +11,25 @@ namespace {
 
 constexpr int n = amr::block_size;
 
-/// At its x faces the columns of a block are up to date, its rows need not be; beyond the domain there are rows only.
-bool keeps_columns(const amr::Forest& forest, int block) { return forest.block(block).kind != amr::Kind::boundary; }
-
-/// The layer of cells of a block at one of its faces, by rows and lanes.
+/// The lines of cells of a block, no boundary block, at one of its faces: columns at x faces, rows at the others.
 template <class S>
 class Layer {
  public:
   using Layout = RowLayout<S>;
-  using Real = typename S::Real;
 
-  Layer(const MomentField<S>& field, const amr::Forest& forest, int block, int face)
-      : axis_(face / 2),
-        depth_(face & 1 ? n - 1 : 0),
-        rows_(field.block(block)),
-        columns_(axis_ == 0 && keeps_columns(forest, block) ? field.column(block, depth_, 0) : nullptr) {}
-
-  Vec<Real> row(int m, int r) const {
-    if (axis_ == 1) return Layout::load(rows_ + (r * n + depth_) * Layout::bytes, m);
-    if (axis_ == 2) return Layout::load(rows_ + (depth_ * n + r) * Layout::bytes, m);
-    if (columns_) return Layout::load(columns_ + r * Layout::bytes, m);
-    alignas(128) Real value[lanes];
-    for (int lane = 0; lane < lanes; ++lane) value[lane] = cell(m, r, lane);
-    return load(value);
+  Layer(const MomentField<S>& field, int block, int face) {
+    const int axis = face / 2, depth = face & 1 ? n - 1 : 0;
+    first_ = axis == 0   ? field.column(block, depth, 0)
+             : axis == 1 ? field.row(block, depth, 0)
+                         : field.row(block, 0, depth);
+    stride_ = axis == 1 ? n * Layout::bytes : Layout::bytes;
   }
 
-  Real cell(int m, int r, int lane) const {
-    if (columns_) return Layout::get(columns_ + r * Layout::bytes, m, lane);
-    const int x = axis_ == 0 ? depth_ : lane, y = axis_ == 0 ? lane : axis_ == 1 ? depth_ : r;
-    return Layout::get(rows_ + ((axis_ == 2 ? depth_ : r) * n + y) * Layout::bytes, m, x);
-  }
+  auto line(int m, int r) const { return Layout::load(first_ + r * stride_, m); }
 
  private:
-  const int axis_, depth_;
-  const std::byte *rows_, *columns_;
+  const std::byte* first_;
+  std::size_t stride_;
 };
 
 constexpr Moment stress(int a, int b) {
@@ -76,54 +61,30 @@ Reflux<S>::Reflux(const amr::Forest& forest, const fluid::Specification& specifi
   for (const Host& host : hosts_) cells_ += static_cast<int>(host.faces.size()) * n * n;
 }
 
-/// Adds the mass that a step carries from the outer to the inner side.
+/// Mass that a step carries from the outer to the inner side of a face, lane by lane. Of the diagonal populations what
+/// leaves a face along it enters the next one, except at an open boundary.
 template <class S>
-void Reflux<S>::add_sheet(const MomentField<S>& field, const InterfaceFace& face, Real keep, Sheet& sheet) const {
-  const int axis = face.face / 2, side = face.face & 1, sign = side ? 1 : -1;
-  const int along = lane_axis(axis), across = row_axis(axis);
-  const auto beside = [&](int block, int direction) {
-    Index3 offset{0, 0, 0};
-    offset[direction] = -1;
-    return forest_.block(block).neighbour[amr::neighbour_slot(offset[0], offset[1], offset[2])];
-  };
-  const auto layers = [&](int inner, int outer) {
-    return std::pair(Layer<S>(field, forest_, inner, face.face), Layer<S>(field, forest_, outer, face.face ^ 1));
-  };
-  const auto [inner, outer] = layers(face.inner, face.outer);
-  const auto quarter_shear = [&](const auto& pair, int tangent, int r) {
+auto Reflux<S>::through(const MomentField<S>& field, const InterfaceFace& face, Real keep) const -> Vec<Real> {
+  const int axis = face.face / 2, sign = face.face & 1 ? 1 : -1;
+  const Layer<S> inner(field, face.inner, face.face), outer(field, face.outer, face.face ^ 1);
+  const auto quarter_shear = [&](int tangent, int r) {
     const auto of = [&](const Layer<S>& l) {
-      return shear<Vec<Real>>(axis, tangent, keep, [&](int m) { return l.row(m, r); });
+      return shear<Vec<Real>>(axis, tangent, keep, [&](int m) { return l.line(m, r); });
     };
-    return Real(0.25 * sign) * (of(pair.first) + of(pair.second));
+    return Real(0.25 * sign) * (of(inner) + of(outer));
   };
-  const auto quarter_shear_before = [&](const auto& pair, int r) {  // in the last lane of the blocks before
-    const auto of = [&](const Layer<S>& l) {
-      return shear<Real>(axis, along, keep, [&](int m) { return l.cell(m, r, lanes - 1); });
-    };
-    return Real(0.25 * sign) * (of(pair.first) + of(pair.second));
-  };
-  const std::pair here(inner, outer);
-  const bool flat_lanes = face.end[0] == End::flat, flat_rows = face.end[2] == End::flat;
-  const auto lanes_before = flat_lanes ? layers(beside(face.inner, along), beside(face.outer, along)) : here;
-  const auto rows_before = flat_rows ? layers(beside(face.inner, across), beside(face.outer, across)) : here;
-
-  Vec<Real> below = flat_rows ? quarter_shear(rows_before, across, n - 1) : Vec<Real>{};
-  if (face.end[2] == End::open) below = quarter_shear(here, across, 0);
+  Vec<Real> sum{};
   for (int r = 0; r < n; ++r) {
-    const auto of_inner = [&](int m) { return inner.row(m, r); };
-    const auto of_outer = [&](int m) { return outer.row(m, r); };
-    Vec<Real> sum = leaving<Vec<Real>>(axis, -sign, keep, of_outer) - leaving<Vec<Real>>(axis, sign, keep, of_inner);
-    Vec<Real> up = quarter_shear(here, across, r);
-    if (r == n - 1 && face.end[3] == End::closed) up = Vec<Real>{};
-    sum += up - below;
-    below = up;
-    Vec<Real> right = quarter_shear(here, along, r);
-    Real first = flat_lanes ? quarter_shear_before(lanes_before, r) : Real(0);
-    if (face.end[0] == End::open) first = right[0];
-    if (face.end[1] == End::closed) right[lanes - 1] = Real(0);
-    sum += right - shift_up<Real>(right, first);
-    sheet[r] += sum;
+    sum += leaving<Vec<Real>>(axis, -sign, keep, [&](int m) { return outer.line(m, r); }) -
+           leaving<Vec<Real>>(axis, sign, keep, [&](int m) { return inner.line(m, r); });
+    if (!face.open[0] && !face.open[1]) continue;
+    const Vec<Real> along = quarter_shear(lane_axis(axis), r);
+    if (face.open[0]) sum[0] -= along[0];
+    if (face.open[1]) sum[lanes - 1] += along[lanes - 1];
   }
+  if (face.open[2]) sum -= quarter_shear(row_axis(axis), 0);
+  if (face.open[3]) sum += quarter_shear(row_axis(axis), n - 1);
+  return sum;
 }
 
 template <class S>
@@ -131,7 +92,8 @@ auto Reflux<S>::entering(const MomentField<S>& field, const DiagonalTerm& term, 
     -> Vec<Real> {
   using Layout = RowLayout<S>;
   const auto [x, y, z] = term.first;
-  const bool in_column = along != 0 && (x == 0 || x == n - 1) && keeps_columns(forest_, term.block);
+  // at its x faces the columns of a block are up to date, its rows need not be; beyond the domain there are rows only
+  const bool in_column = along != 0 && (x == 0 || x == n - 1) && forest_.block(term.block).kind != amr::Kind::boundary;
   const Row<Real> cells = !in_column   ? Layout::load_line(field.block(term.block), term.first, along)
                           : along == 1 ? Layout::load_row(field.column(term.block, x, z))
                                        : Layout::load_column(field.column(term.block, x, 0), y, 0, 1);
@@ -141,16 +103,15 @@ auto Reflux<S>::entering(const MomentField<S>& field, const DiagonalTerm& term, 
 /// Mass that a step carries inwards on the coarse or the fine side of a host, in rho of a cell of that side.
 template <class S>
 double Reflux<S>::carried(const MomentField<S>& field, const Host& host, bool fine, Real keep) const {
-  Sheet sheet{};
+  Vec<Real> mass{};
   for (const Host::Face& face : host.faces) {
-    if (!fine) add_sheet(field, face.coarse, keep, sheet);
-    for (int quarter = 0; fine && quarter < 4; ++quarter) add_sheet(field, face.fine[quarter], keep, sheet);
+    if (!fine) mass += through(field, face.coarse, keep);
+    for (int quarter = 0; fine && quarter < 4; ++quarter) mass += through(field, face.fine[quarter], keep);
   }
   for (const Host::Line& line : host.lines)
-    for (const DiagonalTerm& term : fine ? line.fine : line.coarse) sheet[0] += entering(field, term, line.along, keep);
+    for (const DiagonalTerm& term : fine ? line.fine : line.coarse) mass += entering(field, term, line.along, keep);
   double sum = 0.0;
-  for (const Vec<Real>& row : sheet)
-    for (int lane = 0; lane < lanes; ++lane) sum += row[lane];
+  for (int lane = 0; lane < lanes; ++lane) sum += mass[lane];
   return sum;
 }
 

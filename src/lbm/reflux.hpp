@@ -39,12 +39,10 @@ class Reflux {
 
  private:
   using Real = typename S::Real;
-  using Sheet = std::array<Vec<Real>, amr::block_size>;  // of cells at a face, [row][lane]
-
   double carried(const MomentField<S>& field, const Host& host, bool fine, Real keep) const;
   template <class F>
   double sum_over_hosts(const F& of_host) const;
-  void add_sheet(const MomentField<S>& field, const InterfaceFace& face, Real keep, Sheet& sheet) const;
+  Vec<Real> through(const MomentField<S>& field, const InterfaceFace& face, Real keep) const;
   Vec<Real> entering(const MomentField<S>& field, const DiagonalTerm& term, int along, Real keep) const;
 
   const amr::Forest& forest_;
