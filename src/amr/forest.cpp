@@ -223,6 +223,14 @@ int Forest::find(int level, Index3 index) const {
   return found == by_index_.end() ? none : found->second;
 }
 
+std::vector<int> Forest::faces_beyond(int id) const {
+  const Index3 across = blocks_across(block(id).level), &index = block(id).index;
+  std::vector<int> faces;
+  for (int a = 0; a < 3; ++a)
+    if (index[a] < 0 || index[a] >= across[a]) faces.push_back(2 * a + (index[a] >= 0));
+  return faces;
+}
+
 std::optional<Location> Forest::locate(const Vec3& point) const {
   const Index3 across = blocks_across(finest());
   Index3 cell;  // the finest level's cell that would hold the point

@@ -92,6 +92,10 @@ class Forest {
   Box box(int id) const;
   Vec3 cell_centre(int id, const Index3& cell) const;  ///< [m]
 
+  /// Faces of the domain beyond which a `boundary` block lies, one for each axis at most, ascending: x_min, x_max,
+  /// y_min, y_max, z_min, z_max from 0 on.
+  std::vector<int> faces_beyond(int id) const;
+
   /// The leaf and cell that hold a point [m]; nothing outside the domain (periodic axes wrap).
   std::optional<Location> locate(const Vec3& point) const;
   /// Id of the block of `level` at block coordinates `index` (periodic axes wrap), or `none`.

@@ -33,8 +33,8 @@ Counted operator/(const Counted& a, int b) { return a / Counted(b); }
 Counted& operator+=(Counted& a, const Counted& b) { return a = a + b; }
 Counted& operator-=(Counted& a, const Counted& b) { return a = a - b; }
 Counted square_root(const Counted& a) { return combine(a, a, std::sqrt(a.value)); }
-[[maybe_unused]] Counted rough_square_root(const Counted& a) { return square_root(a); }
-[[maybe_unused]] Counted rough_reciprocal(const Counted& a) { return Counted(1.0) / a; }
+Counted rough_square_root(const Counted& a) { return square_root(a); }
+Counted rough_reciprocal(const Counted& a) { return Counted(1.0) / a; }
 Counted maximum(const Counted& a, const Counted& b) { return combine(a, b, std::fmax(a.value, b.value)); }
 
 /// Populations of a cell, from which its own moments are taken again.

@@ -34,8 +34,8 @@ void BasicSolver<S>::accelerate(int level) {
         Real* u = Layout::macro(row, ux + a);
         store(u, load(u) + kick[a]);
       }
+      field.velocity_to_columns(id, r % lanes, r / lanes);
     }
-    field.refresh_columns(id);
   }
 }
 

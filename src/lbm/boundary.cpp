@@ -33,18 +33,6 @@ bool depends_on_time(const fluid::Face& face) {
   return false;
 }
 
-/// Axes along which a block of the forest lies outside the domain.
-std::vector<int> axes_beyond(const amr::Forest& forest, int id) {
-  const amr::Block& block = forest.block(id);
-  const Index3 across = forest.blocks_across(block.level);
-  std::vector<int> axes;
-  for (int a = 0; a < 3; ++a)
-    if (block.index[a] < 0 || block.index[a] >= across[a]) axes.push_back(a);
-  return axes;
-}
-
-int face_beyond(const amr::Forest& forest, int id, int axis) { return 2 * axis + (forest.block(id).index[axis] >= 0); }
-
 }  // namespace
 
 template <class S>
@@ -62,41 +50,42 @@ BoundaryFill<S>::BoundaryFill(const amr::Forest& forest, const fluid::Specificat
 
 template <class S>
 void BoundaryFill<S>::add(int level, int id) {
-  const std::vector<int> axes = axes_beyond(forest_, id);
-  const auto face = [&](int axis) -> const fluid::Face& { return specification_.face[face_beyond(forest_, id, axis)]; };
-  Item item{id, amr::none, axes.back(), 0, -1, -1, false};
-  for (const int a : axes)
-    if (!radiates(face(a))) item.axis = a;
-  item.face = face_beyond(forest_, id, item.axis);
-  for (const int a : axes) item.beyond_wall |= a != item.axis && fixes_velocity(face(a));
+  const std::vector<int> faces = forest_.faces_beyond(id);
+  const auto& face = specification_.face;
+  Item item{id, amr::none, 0, faces.back(), -1, -1, false};
+  for (const int f : faces)
+    if (!radiates(face[f])) item.face = f;
+  item.axis = item.face / 2;
+  for (const int f : faces) item.beyond_wall |= f != item.face && fixes_velocity(face[f]);
   Index3 source = forest_.block(id).index;
   source[item.axis] += item.face & 1 ? -1 : 1;
   item.source = forest_.find(level, source);
-  if (needs_table(face(item.axis))) {
+  if (needs_table(face[item.face])) {
     item.table = static_cast<int>(tables_.size());
     tables_.emplace_back(n);
     update_table(item, 0.0);
   }
-  if (axes.size() == 1 && radiates(face(item.axis))) {
+  if (faces.size() == 1 && radiates(face[item.face])) {
     item.memory = static_cast<int>(memories_.size());
     memories_.emplace_back();
   }
-  items_[level][axes.size() - 1].push_back(item);
-  if (axes.size() == 2) add_wall_edge(level, id, axes);
+  items_[level][faces.size() - 1].push_back(item);
+  if (faces.size() == 2) add_wall_edge(level, id, faces);
 }
 
 /// If it is an edge between walls of which one is without slip, and a leaf lies in it.
 template <class S>
-void BoundaryFill<S>::add_wall_edge(int level, int id, const std::vector<int>& axes) {
+void BoundaryFill<S>::add_wall_edge(int level, int id, const std::vector<int>& faces) {
   WallEdge edge{id, {}};
   Index3 inwards{0, 0, 0};
   int sticking = 0;
   for (int i = 0; i < 2; ++i) {
-    const fluid::Boundary type = specification_.face[face_beyond(forest_, id, axes[i])].type;
+    const fluid::Boundary type = specification_.face[faces[i]].type;
+    const int axis = faces[i] / 2;
     if (type != fluid::Boundary::no_slip && type != fluid::Boundary::free_slip) return;
     sticking += type == fluid::Boundary::no_slip;
-    edge.outward[i][axes[i]] = forest_.block(id).index[axes[i]] < 0 ? -1 : 1;
-    inwards[axes[i]] = -edge.outward[i][axes[i]];
+    edge.outward[i][axis] = faces[i] & 1 ? 1 : -1;
+    inwards[axis] = -edge.outward[i][axis];
   }
   const int inner = forest_.block(id).neighbour[amr::neighbour_slot(inwards[0], inwards[1], inwards[2])];
   if (sticking > 0 && forest_.block(inner).kind == amr::Kind::leaf) edges_[level].push_back(edge);

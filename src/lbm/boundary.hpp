@@ -56,7 +56,7 @@ class BoundaryFill {
   using Memory = std::array<FaceMemory<Real>, amr::block_size>;  // per line of the layer
 
   void add(int level, int id);
-  void add_wall_edge(int level, int id, const std::vector<int>& axes);
+  void add_wall_edge(int level, int id, const std::vector<int>& faces);
   void update_table(const Item& item, double time);
   static Row<Real> load_layer(const std::byte* block, const Item& item, int depth, int line);
   static void store_layer(std::byte* block, const Item& item, int depth, int line, const Row<Real>& r);

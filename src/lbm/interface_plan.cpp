@@ -2,9 +2,7 @@
 #include "lbm/interface_plan.hpp"
 
 #include <algorithm>
-#include <cstdlib>
-#include <map>
-#include <optional>
+#include <utility>
 
 namespace drogue::lbm {
 namespace {
@@ -21,18 +19,11 @@ Index3 unit(int axis, int sign) {
 
 enum class Side { inner, outer, wall, other };  // a wall is one without slip
 
-/// A cell, by block.
-struct Place {
-  int block;
-  Index3 cell;
-};
-
 /// One level of the interface.
 class InterfaceLevel {
  public:
-  InterfaceLevel(const amr::Forest& forest, const fluid::Specification& specification, int level, amr::Kind inner,
-                 amr::Kind outer)
-      : forest_(forest), specification_(specification), level_(level), inner_(inner), outer_(outer) {}
+  InterfaceLevel(const amr::Forest& forest, const fluid::Specification& specification, amr::Kind inner, amr::Kind outer)
+      : forest_(forest), specification_(specification), inner_(inner), outer_(outer) {}
 
   int beside(int id, const Index3& offset) const {
     return id == amr::none ? id : forest_.block(id).neighbour[amr::neighbour_slot(offset[0], offset[1], offset[2])];
@@ -75,18 +66,6 @@ class InterfaceLevel {
     return (side(to) == Side::inner) - (side(image_of) == Side::inner);
   }
 
-  /// Of the four cells around the edge that a population from `from` along f + g crosses, those of the inner side with
-  /// a face on the interface.
-  std::vector<Place> inner_cells(const Place& from, const Index3& f, const Index3& g) const {
-    const std::array<Place, 4> around{from, step(from, f), step(from, f + g), step(from, g)};
-    std::vector<Place> cells;
-    for (int i = 0; i < 4; ++i)
-      if (side(around[i].block) == Side::inner &&
-          (side(around[(i + 1) % 4].block) == Side::outer || side(around[(i + 3) % 4].block) == Side::outer))
-        cells.push_back(around[i]);
-    return cells;
-  }
-
  private:
   bool is_open(int boundary) const {
     return for_faces_beyond(
@@ -97,37 +76,14 @@ class InterfaceLevel {
   }
   template <class Predicate>
   bool for_faces_beyond(int boundary, Predicate any) const {
-    const Index3 across = forest_.blocks_across(level_), &index = forest_.block(boundary).index;
-    for (int a = 0; a < 3; ++a)
-      if ((index[a] < 0 || index[a] >= across[a]) && any(specification_.face[2 * a + (index[a] >= 0)].type))
-        return true;
-    return false;
-  }
-
-  Place step(const Place& from, const Index3& offset) const {
-    Index3 cell = from.cell + offset, block{0, 0, 0};
-    for (int a = 0; a < 3; ++a) {
-      block[a] = (cell[a] >= n) - (cell[a] < 0);
-      cell[a] &= n - 1;
-    }
-    return {beside(from.block, block), cell};
+    return std::ranges::any_of(forest_.faces_beyond(boundary),
+                               [&](int face) { return any(specification_.face[face].type); });
   }
 
   const amr::Forest& forest_;
   const fluid::Specification& specification_;
-  const int level_;
   const amr::Kind inner_, outer_;
 };
-
-/// Calls `use(block, f, g, along)` for every block of a level and pair of directions across one of its edges.
-template <class Use>
-void for_edges(const amr::Forest& forest, int level, Use use) {
-  const auto all = forest.range(level);
-  for (int id = all.begin; id < all.end; ++id)
-    for (int along = 0; along < 3; ++along)
-      for (int signs = 0; signs < 4; ++signs)
-        use(id, unit((along + 1) % 3, signs & 1 ? 1 : -1), unit((along + 2) % 3, signs & 2 ? 1 : -1), along);
-}
 
 /// First cell of the line of a block along the edge towards f + g.
 Index3 edge_line(const Index3& f, const Index3& g) {
@@ -137,37 +93,32 @@ Index3 edge_line(const Index3& f, const Index3& g) {
   return first;
 }
 
-class Hosts {
- public:
-  Host& at(int leaf) {
-    const auto [place, is_new] = index_.emplace(leaf, static_cast<int>(hosts.size()));
-    if (is_new) hosts.push_back({leaf, {}, {}});
-    return hosts[place->second];
-  }
-  Host::Line& line(int leaf, Index3 first, int along) {
-    first[along] = 0;
-    auto& lines = at(leaf).lines;
-    const auto found = std::ranges::find_if(lines, [&](const auto& l) { return l.first == first && l.along == along; });
-    return found != lines.end() ? *found : lines.emplace_back(Host::Line{first, along, {}, {}});
-  }
-  std::vector<Host> hosts;
-
- private:
-  std::map<int, int> index_;
-};
+std::vector<DiagonalTerm> diagonal_terms(const amr::Forest& forest, int level, const InterfaceLevel& interface) {
+  std::vector<DiagonalTerm> terms;
+  const auto all = forest.range(level);
+  for (int id = all.begin; id < all.end; ++id)
+    for (int along = 0; along < 3; ++along)
+      for (int signs = 0; signs < 4; ++signs) {
+        const Index3 f = unit((along + 1) % 3, signs & 1 ? 1 : -1), g = unit((along + 2) % 3, signs & 2 ? 1 : -1);
+        const int weight = interface.weight(id, f, g);
+        if (weight != 0) terms.push_back({id, along, weight, edge_line(f, g), f + g});
+      }
+  return terms;
+}
 
 }  // namespace
 
-std::vector<Host> plan_interface(const amr::Forest& forest, const fluid::Specification& specification, int coarse) {
-  const InterfaceLevel above(forest, specification, coarse, amr::Kind::leaf, amr::Kind::parent);
-  const InterfaceLevel below(forest, specification, coarse + 1, amr::Kind::ghost, amr::Kind::leaf);
-  Hosts hosts;
+Interface plan_interface(const amr::Forest& forest, const fluid::Specification& specification, int coarse) {
+  const InterfaceLevel above(forest, specification, amr::Kind::leaf, amr::Kind::parent);
+  const InterfaceLevel below(forest, specification, amr::Kind::ghost, amr::Kind::leaf);
+  Interface plan{{}, diagonal_terms(forest, coarse, above), diagonal_terms(forest, coarse + 1, below)};
   const auto leaves = forest.range(coarse, amr::Kind::leaf);
-  for (int id = leaves.begin; id < leaves.end; ++id)
+  for (int id = leaves.begin; id < leaves.end; ++id) {
+    Interface::Host host;
     for (int f = 0; f < 6; ++f) {
       const int axis = f / 2;
       if (above.side(above.beside(id, unit(axis, f & 1 ? 1 : -1))) != Side::outer) continue;
-      Host::Face face{above.face(id, f), {}};
+      Interface::Face face{above.face(id, f), {}};
       for (int quarter = 0; quarter < 4; ++quarter) {
         Index3 ghost = forest.block(id).index;
         for (int a = 0; a < 3; ++a) ghost[a] *= 2;
@@ -176,29 +127,11 @@ std::vector<Host> plan_interface(const amr::Forest& forest, const fluid::Specifi
         ghost[row_axis(axis)] += quarter >> 1;
         face.fine[quarter] = below.face(forest.find(coarse + 1, ghost), f);
       }
-      hosts.at(id).faces.push_back(face);
+      host.push_back(face);
     }
-  for_edges(forest, coarse, [&](int id, const Index3& f, const Index3& g, int along) {
-    const int weight = above.weight(id, f, g);
-    if (weight == 0) return;
-    const Index3 first = edge_line(f, g);
-    const auto cells = above.inner_cells({id, first}, f, g);
-    for (const Place& p : cells)
-      hosts.line(p.block, p.cell, along).coarse.push_back({id, first, f + g, double(weight) / cells.size()});
-  });
-  for_edges(forest, coarse + 1, [&](int id, const Index3& f, const Index3& g, int along) {
-    const int weight = below.weight(id, f, g);
-    if (weight == 0) return;
-    const Index3 first = edge_line(f, g);
-    const auto cells = below.inner_cells({id, first}, f, g);
-    for (const Place& p : cells) {
-      const amr::Block& ghost = forest.block(p.block);
-      Index3 cell;
-      for (int a = 0; a < 3; ++a) cell[a] = ((ghost.index[a] & 1) * n + p.cell[a]) / 2;
-      hosts.line(ghost.parent, cell, along).fine.push_back({id, first, f + g, double(weight) / cells.size()});
-    }
-  });
-  return hosts.hosts;
+    if (!host.empty()) plan.hosts.push_back(std::move(host));
+  }
+  return plan;
 }
 
 }  // namespace drogue::lbm

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Where the cells of two levels meet, for counting the mass that crosses (lbm/reflux.hpp). A coarse leaf with fine
-// leaves beyond one of its faces, edges or corners is a host: it holds ghosts of the fine level and has parents beside
-// it. On either level, one side of the interface is the `inner` one, that of the hosts (coarse leaves, and the ghosts
-// in them), the other the `outer` one (parents, and the fine leaves they stand for).
+// leaves beyond one of its faces is a host: it holds ghosts of the fine level and has parents beside it. On either
+// level, one side of the interface is the `inner` one, that of the hosts (coarse leaves, and the ghosts in them), the
+// other the `outer` one (parents, and the fine leaves they stand for).
 #pragma once
 
 #include <array>
@@ -20,34 +20,29 @@ struct InterfaceFace {
   std::array<bool, 4> open;  ///< ends at an open boundary: low and high along the lanes, then along the rows
 };
 
-/// A line of 16 cells whose populations of one diagonal direction add to the mass of the inner side with this weight,
-/// because they do not go the way that the sums over faces count.
+/// A line of 16 cells of a block, from `first` along an axis, whose populations of one diagonal direction add to the
+/// mass of the inner side with this weight, because they do not go the way that the sums over faces count.
 struct DiagonalTerm {
-  int block;
+  int block, along, weight;
   Index3 first, direction;
-  double weight;
 };
 
-struct Host {
+/// All that crosses between two levels.
+struct Interface {
   struct Face {
     InterfaceFace coarse;
     std::array<InterfaceFace, 4> fine;  ///< lanes fastest
   };
-  struct Line {  ///< of 16 cells of the host, from `first` along an axis
-    Index3 first;
-    int along;
-    std::vector<DiagonalTerm> coarse, fine;
-  };
-  int leaf;
-  std::vector<Face> faces;
-  std::vector<Line> lines;
+  using Host = std::vector<Face>;  ///< all faces of one coarse leaf, which is theirs to change
+  std::vector<Host> hosts;
+  std::vector<DiagonalTerm> coarse, fine;
 };
 
 /// Axes of the lanes and the rows of a face that is normal to `axis`.
 constexpr int lane_axis(int axis) { return axis == 0 ? 1 : 0; }
 constexpr int row_axis(int axis) { return axis == 2 ? 1 : 2; }
 
-/// The interface between `coarse` and `coarse` + 1, by host.
-std::vector<Host> plan_interface(const amr::Forest& forest, const fluid::Specification& specification, int coarse);
+/// The interface between `coarse` and `coarse` + 1.
+Interface plan_interface(const amr::Forest& forest, const fluid::Specification& specification, int coarse);
 
 }  // namespace drogue::lbm

@@ -169,11 +169,6 @@ struct RowLayout {
     if (along == 0) return load_row(rows + (z * lanes + y) * bytes);
     return along == 1 ? load_column(rows, x, z * lanes, 1) : load_column(rows, x, y, lanes);
   }
-  static void store_line(std::byte* rows, const Index3& cell, int along, const Row<Real>& line) {
-    const auto [x, y, z] = cell;
-    if (along == 0) return store_row(rows + (z * lanes + y) * bytes, line);
-    along == 1 ? store_column(rows, x, z * lanes, 1, line) : store_column(rows, x, y, lanes, line);
-  }
   static void store_column(std::byte* rows, int x, int first_row, int row_stride, const Row<Real>& column) {
     for (int i = 0; i < lanes; ++i)
       for (int m = 0; m < moments; ++m) put(rows + (first_row + i * row_stride) * bytes, m, x, column.m[m][i]);

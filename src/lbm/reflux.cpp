@@ -51,14 +51,31 @@ T leaving(int normal, int sign, Scalar<T> keep, Get get) {
   return Real(0.5) * (get(drho) * (Real(1) / 3) + rho * u * u + keep * get(pxx + normal) + Real(sign) * rho * u);
 }
 
+/// Sum of f(item), in their order whoever computes the terms.
+template <class Items, class F>
+double sum_over(const Items& items, const F& f) {
+  const int count = static_cast<int>(items.size());
+  std::vector<double> part(count);
+#pragma omp parallel for schedule(dynamic, 4)
+  for (int i = 0; i < count; ++i) part[i] = f(items[i]);
+  return std::accumulate(part.begin(), part.end(), 0.0);
+}
+
+template <class V>
+double sum_of_lanes(const V& v) {
+  double sum = 0.0;
+  for (int lane = 0; lane < lanes; ++lane) sum += v[lane];
+  return sum;
+}
+
 }  // namespace
 
 template <class S>
 Reflux<S>::Reflux(const amr::Forest& forest, const fluid::Specification& specification, int coarse)
     : forest_(forest),
       third_order_(specification.collision != fluid::Collision::bgk),
-      hosts_(plan_interface(forest, specification, coarse)) {
-  for (const Host& host : hosts_) cells_ += static_cast<int>(host.faces.size()) * n * n;
+      interface_(plan_interface(forest, specification, coarse)) {
+  for (const Interface::Host& host : interface_.hosts) cells_ += static_cast<int>(host.size()) * n * n;
 }
 
 /// Mass that a step carries from the outer to the inner side of a face, lane by lane. Of the diagonal populations what
@@ -88,71 +105,68 @@ auto Reflux<S>::through(const MomentField<S>& field, const InterfaceFace& face, 
 }
 
 template <class S>
-auto Reflux<S>::entering(const MomentField<S>& field, const DiagonalTerm& term, int along, Real keep) const
-    -> Vec<Real> {
+auto Reflux<S>::entering(const MomentField<S>& field, const DiagonalTerm& term, Real keep) const -> Vec<Real> {
   using Layout = RowLayout<S>;
   const auto [x, y, z] = term.first;
   // at its x faces the columns of a block are up to date, its rows need not be; beyond the domain there are rows only
-  const bool in_column = along != 0 && (x == 0 || x == n - 1) && forest_.block(term.block).kind != amr::Kind::boundary;
-  const Row<Real> cells = !in_column   ? Layout::load_line(field.block(term.block), term.first, along)
-                          : along == 1 ? Layout::load_row(field.column(term.block, x, z))
-                                       : Layout::load_column(field.column(term.block, x, 0), y, 0, 1);
+  const bool in_column =
+      term.along != 0 && (x == 0 || x == n - 1) && forest_.block(term.block).kind != amr::Kind::boundary;
+  const Row<Real> cells = !in_column        ? Layout::load_line(field.block(term.block), term.first, term.along)
+                          : term.along == 1 ? Layout::load_row(field.column(term.block, x, z))
+                                            : Layout::load_column(field.column(term.block, x, 0), y, 0, 1);
   return static_cast<Real>(term.weight) * population_along(cells, keep, third_order_, term.direction);
 }
 
-/// Mass that a step carries inwards on the coarse or the fine side of a host, in rho of a cell of that side.
 template <class S>
-double Reflux<S>::carried(const MomentField<S>& field, const Host& host, bool fine, Real keep) const {
-  Vec<Real> mass{};
-  for (const Host::Face& face : host.faces) {
-    if (!fine) mass += through(field, face.coarse, keep);
-    for (int quarter = 0; fine && quarter < 4; ++quarter) mass += through(field, face.fine[quarter], keep);
-  }
-  for (const Host::Line& line : host.lines)
-    for (const DiagonalTerm& term : fine ? line.fine : line.coarse) mass += entering(field, term, line.along, keep);
-  double sum = 0.0;
-  for (int lane = 0; lane < lanes; ++lane) sum += mass[lane];
-  return sum;
-}
-
-/// Sum over the hosts, in their order whoever computes the terms.
-template <class S>
-template <class F>
-double Reflux<S>::sum_over_hosts(const F& of_host) const {
-  const int count = static_cast<int>(hosts_.size());
-  std::vector<double> part(count);
-#pragma omp parallel for schedule(dynamic, 1)
-  for (int i = 0; i < count; ++i) part[i] = of_host(hosts_[i]);
-  return std::accumulate(part.begin(), part.end(), 0.0);
+double Reflux<S>::diagonally(const MomentField<S>& field, const std::vector<DiagonalTerm>& terms, Real keep) const {
+  return sum_over(terms, [&](const DiagonalTerm& term) { return sum_of_lanes(entering(field, term, keep)); });
 }
 
 template <class S>
 void Reflux<S>::count_fine_step(const MomentField<S>& field, const Relaxation& relaxation) {
   const Real keep = static_cast<Real>(1.0 - 1.0 / relaxation.tau);
   constexpr double volume = 1.0 / 8.0;
-  owed_ += volume * sum_over_hosts([&](const Host& host) { return carried(field, host, true, keep); });
+  owed_ += volume * sum_over(interface_.hosts, [&](const Interface::Host& host) {
+             Vec<Real> mass{};
+             for (const Interface::Face& face : host)
+               for (const InterfaceFace& quarter : face.fine) mass += through(field, quarter, keep);
+             return sum_of_lanes(mass);
+           });
+  owed_ += volume * diagonally(field, interface_.fine, keep);
 }
 
 template <class S>
 void Reflux<S>::settle(const MomentField<S>& start, const Relaxation& relaxation, MomentField<S>& end) {
   const Real keep = static_cast<Real>(1.0 - 1.0 / relaxation.tau);
-  owed_ -= sum_over_hosts([&](const Host& host) { return carried(start, host, false, keep); });
+  owed_ -= sum_over(interface_.hosts, [&](const Interface::Host& host) {
+    Vec<Real> mass{};
+    for (const Interface::Face& face : host) mass += through(start, face.coarse, keep);
+    return sum_of_lanes(mass);
+  });
+  owed_ -= diagonally(start, interface_.coarse, keep);
   if (cells_ == 0) return;
   const Real share = static_cast<Real>(owed_ / cells_);
-  owed_ -= sum_over_hosts([&](const Host& host) {
+  owed_ -= sum_over(interface_.hosts, [&](const Interface::Host& host) {
     double given = 0.0;
-    for (const Host::Face& face : host.faces)
-      for (int r = 0; r < n; ++r)
-        for (int lane = 0; lane < lanes; ++lane) {
-          const int axis = face.coarse.face / 2;
-          Index3 cell;
-          cell[axis] = face.coarse.face & 1 ? n - 1 : 0;
-          cell[row_axis(axis)] = r;
-          cell[lane_axis(axis)] = lane;
-          given += end.add(host.leaf, cell, drho, share);
-        }
+    for (const Interface::Face& face : host) given += give(face.coarse, share, end);
     return given;
   });
+}
+
+/// Adds the share to each cell of the coarse side of a face; returns what arrived.
+template <class S>
+double Reflux<S>::give(const InterfaceFace& face, Real share, MomentField<S>& field) const {
+  const int axis = face.face / 2;
+  double given = 0.0;
+  for (int r = 0; r < n; ++r)
+    for (int lane = 0; lane < lanes; ++lane) {
+      Index3 cell;
+      cell[axis] = face.face & 1 ? n - 1 : 0;
+      cell[row_axis(axis)] = r;
+      cell[lane_axis(axis)] = lane;
+      given += field.add(face.inner, cell, drho, share);
+    }
+  return given;
 }
 
 template <class S>

@@ -39,15 +39,14 @@ class Reflux {
 
  private:
   using Real = typename S::Real;
-  double carried(const MomentField<S>& field, const Host& host, bool fine, Real keep) const;
-  template <class F>
-  double sum_over_hosts(const F& of_host) const;
   Vec<Real> through(const MomentField<S>& field, const InterfaceFace& face, Real keep) const;
-  Vec<Real> entering(const MomentField<S>& field, const DiagonalTerm& term, int along, Real keep) const;
+  Vec<Real> entering(const MomentField<S>& field, const DiagonalTerm& term, Real keep) const;
+  double diagonally(const MomentField<S>& field, const std::vector<DiagonalTerm>& terms, Real keep) const;
+  double give(const InterfaceFace& face, Real share, MomentField<S>& field) const;
 
   const amr::Forest& forest_;
   const bool third_order_;
-  const std::vector<Host> hosts_;
+  const Interface interface_;
   int cells_ = 0;      // of coarse leaves beside the interface, once for each face
   double owed_ = 0.0;  // to them, in rho of one; what rounding leaves stays
 };
