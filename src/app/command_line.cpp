@@ -7,6 +7,7 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <filesystem>
+#include <utility>
 
 #include "app/inspect.hpp"
 #include "app/plot.hpp"
@@ -56,6 +57,18 @@ void add_case(CLI::App* command, fs::path& path, std::vector<std::string>& overr
 
 }  // namespace
 
+std::optional<int> parse(CLI::App& app, std::vector<std::string> arguments) {
+  std::ranges::reverse(arguments);  // as CLI11 wants them
+  try {
+    app.parse(arguments);
+  } catch (const CLI::Success& request) {
+    return app.exit(request);
+  } catch (const CLI::ParseError& error) {
+    throw InputError(fmt::format("{}; see {} --help", error.what(), app.get_name()));
+  }
+  return std::nullopt;
+}
+
 int run_command(const std::string& program, std::vector<std::string> arguments) {
   if (!arguments.empty() && arguments.front() == "render") {
     become_render({arguments.begin() + 1, arguments.end()});
@@ -96,14 +109,7 @@ int run_command(const std::string& program, std::vector<std::string> arguments) 
   app.add_subcommand("render", "pictures of a run (drogue-render)");
 
   refuse_unknown_command(app, arguments);
-  std::ranges::reverse(arguments);  // as CLI11 wants them
-  try {
-    app.parse(arguments);
-  } catch (const CLI::Success& request) {
-    return app.exit(request);
-  } catch (const CLI::ParseError& error) {
-    throw InputError(fmt::format("{}; see {} --help", error.what(), app.get_name()));
-  }
+  if (const auto exit_code = parse(app, std::move(arguments))) return *exit_code;
 
   if (*run_command) return run_case(run);
   std::string text = build_info();

@@ -6,7 +6,6 @@
 #include <sys/resource.h>
 
 #include <exception>
-#include <fstream>
 
 #include "app/case_changes.hpp"
 #include "app/case_reader.hpp"
@@ -46,12 +45,6 @@ void announce(const Case& c, const Simulation& simulation, const fs::path& folde
   log.info("{:.2f} million cells on {} levels, steps of {:.4g} s, {} threads; writing to {}",
            1e-6 * static_cast<double>(cells), forest.levels(), simulation.time_step(), omp_get_max_threads(),
            folder.string());
-}
-
-void write_text(const fs::path& file, const std::string& text) {
-  std::ofstream stream(file);
-  stream << text << std::flush;
-  if (!stream) throw InputError(fmt::format("{} cannot be written", file.string()));
 }
 
 /// A folder for a new run, or that of the run that is continued, as it was at its last checkpoint.

@@ -65,6 +65,12 @@ void prepare_run_folder(const fs::path& folder) {
   for (const fs::path& file : old) fs::remove(file);
 }
 
+void write_text(const fs::path& file, const std::string& text) {
+  std::ofstream stream(file);
+  stream << text << std::flush;
+  if (!stream) throw InputError(fmt::format("{} cannot be written", file.string()));
+}
+
 void keep_lines(const fs::path& file, int count) {
   std::ifstream stream(file);
   std::string line;

@@ -6,11 +6,12 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
-#include <fstream>
 #include <functional>
 #include <optional>
 #include <utility>
 
+#include "app/command_line.hpp"
+#include "app/run_folder.hpp"
 #include "bench/accuracy.hpp"
 #include "bench/kernel.hpp"
 #include "bench/machine.hpp"
@@ -55,12 +56,6 @@ void refuse_unknown_parts(const std::vector<Family>& wanted, const std::vector<s
   }
 }
 
-void write_text(const fs::path& file, const std::string& text) {
-  std::ofstream stream(file);
-  stream << text << std::flush;
-  if (!stream) throw InputError(fmt::format("{} cannot be written", file.string()));
-}
-
 }  // namespace
 
 int run_command(std::vector<std::string> arguments) {
@@ -74,14 +69,7 @@ int run_command(std::vector<std::string> arguments) {
   app.add_option("--only", options.only, "a part of a family, e.g. a flow; may be repeated")->allow_extra_args(false);
   app.add_option("--threads", threads, "number of threads (default: all)")->check(CLI::PositiveNumber);
   app.add_flag("--quick", options.quick, "seconds instead of minutes: to see that it works");
-  std::ranges::reverse(arguments);  // as CLI11 wants them
-  try {
-    app.parse(arguments);
-  } catch (const CLI::Success& request) {
-    return app.exit(request);
-  } catch (const CLI::ParseError& error) {
-    throw InputError(fmt::format("{}; see {} --help", error.what(), app.get_name()));
-  }
+  if (const auto exit_code = app::parse(app, std::move(arguments))) return *exit_code;
 
   std::vector<Family> wanted = names.empty() ? families : std::vector<Family>{};
   for (const std::string& name : names) wanted.push_back(family_of(name));
@@ -94,7 +82,7 @@ int run_command(std::vector<std::string> arguments) {
   for (const Family& family : wanted) {
     const Report report = family.measure(options);
     const std::string page = fmt::format("## {}\n\n{}\n\n{}", family.title, describe_machine(), report.text);
-    write_text(options.folder / (family.name + ".md"), page);
+    app::write_text(options.folder / (family.name + ".md"), page);
     fmt::print("\n{}", page);
     drawn = drawn && report.drawn;
   }
