@@ -14,6 +14,8 @@
 namespace drogue::bench {
 namespace {
 
+using test::TemporaryFolder, test::contents;
+
 int run_quick(const TemporaryFolder& folder, std::vector<std::string> arguments) {
   arguments.insert(arguments.end(), {"--quick", "-o", folder.path()});
   return run_command(arguments);

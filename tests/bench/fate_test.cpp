@@ -9,6 +9,8 @@
 namespace drogue::bench {
 namespace {
 
+using test::TemporaryFolder;
+
 Fate shear_layer(const std::vector<std::string>& overrides, double lattice_velocity) {
   const TemporaryFolder folder;
   return follow(

@@ -9,6 +9,8 @@
 namespace drogue::bench {
 namespace {
 
+using test::TemporaryFolder, test::contents;
+
 const Row columns{"name", "value", "message"};
 
 TEST(ResultTable, goes_on_where_it_was) {

@@ -10,16 +10,13 @@
 
 #include "io/series.hpp"
 #include "synthetic_run.hpp"
+#include "temporary_folder.hpp"
 
 namespace drogue {
 namespace {
 
+using test::contents;
 using test::TemporaryFolder;
-
-std::string contents(const std::filesystem::path& file) {
-  std::ifstream stream(file, std::ios::binary);
-  return {std::istreambuf_iterator<char>(stream), {}};
-}
 
 /// The values of an appended array, found as a reader finds it: by the offset its element names.
 template <class T>

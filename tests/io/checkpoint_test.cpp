@@ -7,6 +7,7 @@
 
 #include "core/error.hpp"
 #include "synthetic_run.hpp"
+#include "temporary_folder.hpp"
 
 namespace drogue {
 namespace {

@@ -9,6 +9,7 @@
 #include <set>
 
 #include "synthetic_run.hpp"
+#include "temporary_folder.hpp"
 
 namespace drogue {
 namespace {

@@ -9,6 +9,7 @@
 #include <limits>
 
 #include "synthetic_run.hpp"
+#include "temporary_folder.hpp"
 
 namespace drogue {
 namespace {

@@ -15,6 +15,7 @@
 #include "io/canopy.hpp"
 #include "render/picture.hpp"
 #include "synthetic_run.hpp"
+#include "temporary_folder.hpp"
 
 namespace drogue {
 namespace {
