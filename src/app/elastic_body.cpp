@@ -91,7 +91,7 @@ CoupledElasticBody::CoupledElasticBody(const Case& c, const Body& body, const fe
 void CoupledElasticBody::step_alone(double time, double dt) {
   const Timed timed(time_alone_);
   if (solver_.at_rest) {
-    structure_.relax(time + dt, solver_.relaxation);
+    structure_.find_equilibrium(time + dt, solver_.equilibrium);
   } else {
     structure_.advance(dt, time);
   }
