@@ -3,14 +3,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
-#include <cstdlib>
 #include <limits>
+#include <utility>
 
 namespace drogue::fem {
 namespace {
 
-constexpr int most_iterations = 500;
+constexpr int most_iterations = 500;  // slack cables that are a million times stiffer along than across take 150
 constexpr double least_mu = 1e-8, most_mu = 1e4;
 
 double dot(std::span<const Vec3> a, std::span<const Vec3> b) {
@@ -31,26 +30,27 @@ struct Step {
   Balance balance;
 };
 
-/// Along `u` as far as the work of the forces stays, or comes back, above minus half of what it is at the beginning.
+/// Along `u`, on which the forces at first do `work`: in full, or as far as they do at least minus half of it.
 Step search(std::span<const Vec3> x, std::span<const Vec3> u, double work, const Newton::Forces& forces) {
   constexpr int most_trials = 30;
   double low = 0.0, low_work = work, high = 0.0;
-  Step trial{1.0, {}, {}};
-  for (int trials = 0; trials < most_trials; ++trials) {
-    trial.x = moved(x, trial.share, u);
-    trial.balance = forces(trial.x);
-    const double now = trial.balance.inside ? dot(trial.balance.left, u) : -INFINITY;
-    if (std::abs(now) <= 0.5 * work || (now > 0.0 && high == 0.0)) return trial;
-    if (now > 0.0) {
-      low = trial.share;
+  Step step{1.0, {}, {}};
+  for (int trial = 0; trial < most_trials; ++trial) {
+    step.x = moved(x, step.share, u);
+    step.balance = forces(step.x);
+    const double now = step.balance.inside ? dot(step.balance.left, u) : -INFINITY;
+    const bool too_short = now > 0.5 * work && high > 0.0;
+    if (now >= -0.5 * work && !too_short) return step;
+    if (too_short) {
+      low = step.share;
       low_work = now;
     } else {
-      high = trial.share;
+      high = step.share;
     }
-    const double secant = std::isfinite(now) && now < 0.0 ? low_work / (low_work - now) : 0.5;
-    trial.share = low + std::clamp(secant, 0.1, 0.5) * (high - low);
+    const double secant = now < 0.0 ? low_work / (low_work - now) : 0.5;
+    step.share = low + std::clamp(secant, 0.1, 0.5) * (high - low);
   }
-  return trial;
+  return step;
 }
 
 }  // namespace
@@ -61,17 +61,28 @@ Newton::Newton(Elements& elements, const SparseSystem::Held& held, std::span<con
                std::vector<double> damping)
     : elements_(elements), stiffness_(elements), system_(stiffness_, held, pairs), damping_(std::move(damping)) {}
 
-/// Solves for the step with as much damping as it takes; nothing if no amount suffices.
-std::vector<Vec3> Newton::step(std::span<const Vec3> x, const std::vector<Vec3>& left, const NodalMatrix& added) {
-  stiffness_.update(x);
-  for (; mu_ < most_mu; mu_ = std::max(least_mu, 10.0 * mu_)) {
-    NodalMatrix sum = added;
-    for (std::size_t node = 0; node < damping_.size(); ++node) sum.diagonal[node].array() += mu_ * damping_[node];
-    if (!system_.factorise(sum)) continue;
-    std::vector<Vec3> u = system_.solve(left);
-    if (dot(left, u) >= 0.0) return u;
+Newton::Outcome Newton::solve(std::vector<Vec3>& x, const std::vector<Vec3>& prescribed, const Forces& forces,
+                              const NodalMatrix& added, double tolerance) {
+  Outcome outcome{false, 0, INFINITY};
+  Balance balance = forces(x);
+  if (!balance.inside) return outcome;
+  const double rounding = rounding_of_forces(x, added);
+  double scale = norm(balance.left);
+  bool in_place = norm(prescribed) == 0.0;
+  mu_ = 0.0;
+  for (; outcome.iterations < most_iterations; ++outcome.iterations) {
+    const double left = norm(balance.left);
+    scale = std::max(scale, balance.scale);
+    outcome.residual = left > rounding ? left / scale : 0.0;
+    outcome.balanced = in_place && outcome.residual <= tolerance;
+    if (outcome.balanced) return outcome;
+    const bool goes_on =
+        in_place ? improve(x, balance, forces, added) : move_held(x, prescribed, balance, forces, added);
+    if (!goes_on) return outcome;
+    if (!in_place) scale = std::max(scale, norm(balance.left));
+    in_place = true;
   }
-  return {};
+  return outcome;
 }
 
 /// What the last bit of the positions does to the forces [N].
@@ -81,50 +92,71 @@ double Newton::rounding_of_forces(std::span<const Vec3> x, const NodalMatrix& ad
   return 4.0 * std::numeric_limits<double>::epsilon() * norm(stiff);
 }
 
-NewtonOutcome Newton::solve(std::vector<Vec3>& x, const std::vector<Vec3>& prescribed, const Forces& forces,
-                            const NodalMatrix& added, double tolerance) {
-  NewtonOutcome outcome{false, 0, INFINITY};
-  Balance balance = forces(x);
-  if (!balance.inside) return outcome;
-  double scale = norm(balance.left);
-  const double rounding = rounding_of_forces(x, added);
-  bool move_held = norm(prescribed) > 0.0;
-  mu_ = 0.0;
-  for (; outcome.iterations < most_iterations; ++outcome.iterations) {
-    scale = std::max(scale, balance.scale);
-    outcome.residual = scale > 0.0 ? norm(balance.left) / scale : 0.0;
-    if (std::getenv("NEWTON_DEBUG"))
-      std::printf("  %d residual %.3e mu %.2e\n", outcome.iterations, outcome.residual, mu_);
-    outcome.balanced = !move_held && (outcome.residual <= tolerance || norm(balance.left) <= rounding);
-    if (outcome.balanced) return outcome;
-    std::vector<Vec3> u;
-    if (move_held) {
-      stiffness_.update(x);
-      const std::vector<Vec3> pulled = stiffness_.times(prescribed);
-      u = step(x, moved(balance.left, -1.0, pulled), added);
-      if (u.empty()) return outcome;
-      x = moved(moved(x, 1.0, u), 1.0, prescribed);
-      balance = forces(x);
-      if (!balance.inside) return outcome;
-      scale = std::max(scale, norm(balance.left));
-      move_held = false;
-      continue;
-    }
-    u = step(x, balance.left, added);
-    if (u.empty()) return outcome;
-    Step taken = search(x, u, dot(balance.left, u), forces);
-    if (std::getenv("NEWTON_DEBUG")) std::printf("     share %.4f\n", taken.share);
-    if (!taken.balance.inside) return outcome;
-    if (taken.share == 1.0) {
-      if (norm(taken.balance.left) < norm(balance.left)) mu_ *= 0.1;
-      if (mu_ < least_mu) mu_ = 0.0;
-    } else if (taken.share < 0.25) {
-      mu_ = std::max(least_mu, std::min(10.0, 1.0 / taken.share) * mu_);
-    }
-    x = std::move(taken.x);
-    balance = std::move(taken.balance);
+/// With all else following as the tangent says; false if that fails.
+bool Newton::move_held(std::vector<Vec3>& x, const std::vector<Vec3>& prescribed, Balance& balance,
+                       const Forces& forces, const NodalMatrix& added) {
+  stiffness_.update(x);
+  const std::vector<Vec3> pulled = moved(balance.left, -1.0, stiffness_.times(prescribed));
+  const std::vector<Vec3> u = step_against(pulled, added);
+  if (u.empty()) return false;
+  x = moved(moved(x, 1.0, u), 1.0, prescribed);
+  balance = forces(x);
+  return balance.inside;
+}
+
+/// One iteration; false if there is no way on.
+bool Newton::improve(std::vector<Vec3>& x, Balance& balance, const Forces& forces, const NodalMatrix& added) {
+  stiffness_.update(x);
+  const std::vector<Vec3> u = step_against(balance.left, added);
+  if (u.empty()) return false;
+  Step step = search(x, u, dot(balance.left, u), forces);
+  if (!step.balance.inside) return false;
+  if (step.share < 0.25) {
+    mu_ = std::max(least_mu, std::min(10.0, 1.0 / step.share) * mu_);
+  } else if (step.share == 1.0 && norm(step.balance.left) < norm(balance.left)) {
+    mu_ = mu_ > 10.0 * least_mu ? 0.1 * mu_ : 0.0;
   }
-  return outcome;
+  x = std::move(step.x);
+  balance = std::move(step.balance);
+  return true;
+}
+
+/// With as much damping as it takes for the force to do work on it; nothing if no amount suffices.
+std::vector<Vec3> Newton::step_against(const std::vector<Vec3>& force, const NodalMatrix& added) {
+  for (; mu_ < most_mu; mu_ = std::max(least_mu, 10.0 * mu_)) {
+    if (!factorise(added)) continue;
+    std::vector<Vec3> u = system_.solve(force);
+    if (dot(force, u) >= 0.0) return u;
+  }
+  return {};
+}
+
+bool Newton::factorise(const NodalMatrix& added) {
+  NodalMatrix sum = added;
+  for (std::size_t node = 0; node < damping_.size(); ++node) sum.diagonal[node].array() += mu_ * damping_[node];
+  return system_.factorise(sum);
+}
+
+std::optional<Newton::FreeMotion> Newton::find_free_motion(std::span<const Vec3> x, const NodalMatrix& added) {
+  constexpr double hardly = 1e-12;  // of the stiffness D
+  stiffness_.update(x);
+  mu_ = least_mu;
+  if (!factorise(added)) return std::nullopt;          // not a stable state: something else is wrong with it
+  std::vector<Vec3> u(x.size(), Vec3(1.0, 0.7, 0.4));  // not across any motion that is likely
+  double resistance = 1.0;
+  for (int iteration = 0; iteration < 8; ++iteration) {
+    for (std::size_t node = 0; node < x.size(); ++node) u[node] *= damping_[node];
+    u = system_.solve(u);
+    const double size = norm(u);
+    if (size == 0.0) return std::nullopt;
+    for (Vec3& v : u) v /= size;
+    std::vector<Vec3> scaled = u;
+    for (std::size_t node = 0; node < x.size(); ++node) scaled[node] *= damping_[node];
+    resistance = dot(u, moved(stiffness_.times(u), 1.0, added.times(u))) / dot(u, scaled);
+  }
+  if (std::abs(resistance) > hardly) return std::nullopt;
+  const auto most = std::ranges::max_element(u, {}, [](const Vec3& v) { return v.squaredNorm(); });
+  return FreeMotion{static_cast<int>(most - u.begin()), most->normalized()};
 }
 
 }  // namespace drogue::fem

@@ -94,6 +94,11 @@ class Structure {
   /// Points, their masses and damping do not matter. Returns the number of iterations; throws Diverged if it is not
   /// found, naming what moves unheld, or if an element is torn.
   int find_equilibrium(double time, const EquilibriumOptions& options);
+  /// A motion that nothing resists at the equilibrium that Newton's method found last, in words; empty if there is
+  /// none.
+  const std::string& free_motion() const;
+  /// What is cheaper by an estimate from counts.
+  Equilibrium cheaper_equilibrium() const;
   int substeps() const;              ///< taken by the last advance
   double stable_step() const;        ///< [s] longest sub-step of the scheme, safety included, for largest_frequency()
   double largest_frequency() const;  ///< [rad/s] upper estimate from the elements as deformed, behind the sub-step

@@ -5,6 +5,7 @@
 
 #include <memory>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "fem/elements.hpp"
@@ -61,6 +62,8 @@ struct Structure::Data {
   std::vector<Vec3> hold_displacement;  ///< of each hold now [m]
   double load_share = 1.0;              ///< of the loads that acts now
   std::unique_ptr<Newton> solver;       ///< once it is needed
+  std::string free_motion;              ///< at the last equilibrium, in words; empty if there is none
+  double reference_frequency = 0.0;     ///< the largest when the inertia was set [rad/s]
   std::vector<Vec3> acceleration;       ///< of each node, of the implicit scheme; empty where unknown [m/s^2]
   NodalMatrix mass_matrix;              ///< of the points, see Inertia [kg]
   std::vector<Vec3> nodal_weight;       ///< of each node [N]
@@ -73,8 +76,8 @@ struct Structure::Data {
   void assemble_mass();
   void compare_masses();
   void estimate_largest_frequency();
-  double stable_step() const;
-  int substeps_for(double dt) const;
+  double stable_step(double frequency) const;
+  int substeps_for(double dt, double frequency) const;
   void stop_rigidly_held();
   /// A share of the loads of `time` [s] acts from now on.
   void set_time(double time, double share = 1.0);
@@ -88,9 +91,18 @@ struct Structure::Data {
   void advance_explicitly(double dt, double time);
   void move(std::size_t point, double dt);
   void advance_implicitly(double dt, double time);
-  NewtonOutcome step_implicitly(double dt, double time, Vec3& impulse);
+  struct ImplicitStep;
+  bool step_implicitly(double dt, double time, Vec3& impulse);
   void find_acceleration();
-  bool is_rigid(int node, int axis) const { return hold_of_node[node][axis] && hold_of_node[node][axis]->rigid; }
+  /// Does `action(node, axis)` for each coordinate that is held rigidly.
+  template <class Action>
+  void for_each_rigid(const Action& action) const {
+    for (std::size_t node = 0; node < x.size(); ++node) {
+      for (int axis = 0; axis < 3; ++axis) {
+        if (hold_of_node[node][axis] && hold_of_node[node][axis]->rigid) action(node, axis);
+      }
+    }
+  }
   /// From positions `x` to where rigid holds have their nodes now; zero elsewhere [m].
   std::vector<Vec3> way_of_held(std::span<const Vec3> x) const;
   /// Of the elements, all loads and `body_force` on positions `x`.
@@ -101,7 +113,11 @@ struct Structure::Data {
   Newton& newton();
   int relax(double time, const EquilibriumOptions& asked);
   int balance_by_newton(double time, const EquilibriumOptions& asked);
-  [[noreturn]] void report_imbalance(double time, double residual, double tolerance) const;
+  void expect_unheld_parts_unloaded();
+  [[noreturn]] void report_imbalance(double time, double residual, double tolerance);
+  std::string describe(int node) const;
+  double cost_of_forces() const;
+  double cost_of_newton();
   std::vector<double> fictitious_masses(const std::vector<double>& least_stiffness);
   [[noreturn]] void report_divergence(double time) const;
 };

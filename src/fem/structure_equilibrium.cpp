@@ -1,23 +1,45 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Equilibrium of a Structure: what balances, by which method it is found, and what is said if it is not.
+// Equilibrium of a Structure: what balances, Newton's method for it, and what is said if there is none.
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
+#include <utility>
 
 #include "core/error.hpp"
 #include "fem/structure_data.hpp"
 
 namespace drogue::fem {
+namespace {
+
+/// The first node of the part of the body that each node belongs to.
+std::vector<int> parts_of(const Elements& elements, std::size_t nodes) {
+  std::vector<int> first(nodes);
+  std::iota(first.begin(), first.end(), 0);
+  const auto root = [&](int node) {
+    while (first[node] != node) node = first[node] = first[first[node]];
+    return node;
+  };
+  for (const auto& group : elements.groups()) {
+    for (int e = 0; e < group->count(); ++e) {
+      for (const int node : group->nodes_of(e)) {
+        const int a = root(node), b = root(group->nodes_of(e)[0]);
+        first[std::max(a, b)] = std::min(a, b);
+      }
+    }
+  }
+  for (std::size_t node = 0; node < nodes; ++node) first[node] = root(static_cast<int>(node));
+  return first;
+}
+
+}  // namespace
 
 std::vector<Vec3> Structure::Data::way_of_held(std::span<const Vec3> from) const {
   std::vector<Vec3> way(from.size(), Vec3::Zero());
-  for (std::size_t node = 0; node < from.size(); ++node) {
-    for (int axis = 0; axis < 3; ++axis) {
-      if (!is_rigid(static_cast<int>(node), axis)) continue;
-      way[node][axis] = mesh.nodes[node][axis] + displacement_of(*hold_of_node[node][axis], axis) - from[node][axis];
-    }
-  }
+  for_each_rigid([&](std::size_t node, int axis) {
+    way[node][axis] = mesh.nodes[node][axis] + displacement_of(*hold_of_node[node][axis], axis) - from[node][axis];
+  });
   return way;
 }
 
@@ -74,15 +96,13 @@ NodalMatrix Structure::Data::tethers() const {
 Newton& Structure::Data::newton() {
   if (!solver) {
     SparseSystem::Held held(x.size());
-    for (std::size_t node = 0; node < x.size(); ++node) {
-      for (int axis = 0; axis < 3; ++axis) held[node][axis] = is_rigid(static_cast<int>(node), axis);
-    }
+    for_each_rigid([&](std::size_t node, int axis) { held[node][axis] = true; });
     solver = std::make_unique<Newton>(elements, held, mass_matrix.pairs, elements.nodal_stiffness(mesh.nodes));
   }
   return *solver;
 }
 
-/// The loads are applied at once, or in parts if that fails.
+/// The loads are applied at once, or, if that fails, in parts.
 int Structure::Data::balance_by_newton(double time, const EquilibriumOptions& asked) {
   constexpr double least_part = 1.0 / 256.0;
   const NodalMatrix added = tethers();
@@ -93,7 +113,7 @@ int Structure::Data::balance_by_newton(double time, const EquilibriumOptions& as
     const double share = std::min(1.0, applied + part);
     set_time(time, share);
     std::vector<Vec3> trial = x;
-    const NewtonOutcome outcome = newton().solve(trial, way_of_held(x), forces, added, asked.tolerance);
+    const Newton::Outcome outcome = newton().solve(trial, way_of_held(x), forces, added, asked.tolerance);
     iterations += outcome.iterations;
     if (outcome.balanced) {
       x = std::move(trial);
@@ -104,29 +124,66 @@ int Structure::Data::balance_by_newton(double time, const EquilibriumOptions& as
     if (part < least_part) report_imbalance(time, outcome.residual, asked.tolerance);
   }
   reaction = forces(x).reaction;
+  if (const auto motion = newton().find_free_motion(x, added)) {
+    free_motion = fmt::format("nothing resists a motion of {} along ({:.2g}, {:.2g}, {:.2g})", describe(motion->node),
+                              motion->direction.x(), motion->direction.y(), motion->direction.z());
+  }
   return iterations;
 }
 
-void Structure::Data::report_imbalance(double time, double residual, double tolerance) const {
-  throw Diverged(
-      fmt::format("no equilibrium of the structure was found at t = {:.6g} s: forces of "
-                  "{:.3g} of the loads and reactions are left, expected {:g}; a mechanism, or motion that "
-                  "nothing holds",
-                  time, residual, tolerance));
+std::string Structure::Data::describe(int node) const {
+  const Vec3& p = mesh.nodes[node];
+  return fmt::format("node {} at ({:g}, {:g}, {:g}) m", node, p.x(), p.y(), p.z());
 }
 
-Integrator Structure::integrator_for(double) const { return data_->options.integrator; }
+/// No equilibrium exists if loads push a part along an axis on which none of its nodes is held.
+void Structure::Data::expect_unheld_parts_unloaded() {
+  const std::vector<int> part = parts_of(elements, x.size());
+  const Balance now = balance(x, own_weight());
+  std::vector<Vec3> load(x.size(), Vec3::Zero());
+  std::vector<std::array<bool, 3>> is_held(x.size(), {false, false, false});
+  for (std::size_t node = 0; node < x.size(); ++node) {
+    load[part[node]] += now.left[node];
+    for (int axis = 0; axis < 3; ++axis) is_held[part[node]][axis] |= hold_of_node[node][axis] != nullptr;
+  }
+  for (std::size_t node = 0; node < x.size(); ++node) {
+    for (int axis = 0; axis < 3; ++axis) {
+      if (is_held[node][axis] || std::abs(load[node][axis]) <= 1e-6 * norm(now.left)) continue;
+      throw InputError(
+          fmt::format("nothing holds the part of the structure with {} along {}, and loads of {:.4g} N push it that "
+                      "way; expected a hold",
+                      describe(static_cast<int>(node)), "xyz"[axis], load[node][axis]));
+    }
+  }
+}
+
+void Structure::Data::report_imbalance(double time, double residual, double tolerance) {
+  std::string cause = "; a mechanism, or motion that nothing holds";
+  if (const auto motion = newton().find_free_motion(x, tethers())) {
+    cause = fmt::format("; nothing resists a motion of {} along ({:.2g}, {:.2g}, {:.2g})", describe(motion->node),
+                        motion->direction.x(), motion->direction.y(), motion->direction.z());
+  }
+  throw Diverged(
+      fmt::format("no equilibrium of the structure was found at t = {:.6g} s: forces of {:.3g} of the loads and "
+                  "reactions are left, expected {:g}{}",
+                  time, residual, tolerance, cause));
+}
 
 int Structure::find_equilibrium(double time, const EquilibriumOptions& options) {
   Data& d = *data_;
   d.set_time(time);
+  d.acceleration.clear();
+  d.free_motion.clear();
+  d.expect_unheld_parts_unloaded();
+  const Equilibrium method = options.method == Equilibrium::cheaper ? cheaper_equilibrium() : options.method;
   std::ranges::fill(d.v, Vec3::Zero());
   const int iterations =
-      options.method == Equilibrium::relaxation ? d.relax(time, options) : d.balance_by_newton(time, options);
+      method == Equilibrium::relaxation ? d.relax(time, options) : d.balance_by_newton(time, options);
   std::ranges::fill(d.v, Vec3::Zero());
-  d.acceleration.clear();
   d.estimate_largest_frequency();
   return iterations;
 }
+
+const std::string& Structure::free_motion() const { return data_->free_motion; }
 
 }  // namespace drogue::fem

@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Implicit motion of a Structure: generalised-alpha (Chung & Hulbert, J. Appl. Mech. 60 (1993) 371),
 //   M a_{n+1-am} + C v_{n+1-af} = f(x_{n+1-af}, t_{n+1-af}),   z_{n+1-a} = (1 - a) z_{n+1} + a z_n,
-//   x_{n+1} = x_n + dt v_n + dt^2 ((1/2 - beta) a_n + beta a_{n+1}),   v_{n+1} = v_n + dt ((1 - gamma) a_n + gamma
-//   a_{n+1}),
-// of second order, with M that of the points (structure_data.hpp). Of a mode that the step does not resolve the share
-// `spectral_radius` is left after each; none is damped with 1. Unstable steps there are none, inaccurate ones there
-// are: what is faster than a few steps is not resolved. The unknown is x_{n+1-af}, in which inertia and dampers are
-// springs.
+//   x_{n+1} = x_n + dt v_n + dt^2 ((1/2 - beta) a_n + beta a_{n+1}),
+//   v_{n+1} = v_n + dt ((1 - gamma) a_n + gamma a_{n+1}),
+// of second order and stable for any step, with the masses M of the points (structure_data.hpp). Of a mode that is much
+// faster than the step a share `spectral_radius` is left after each; with 1 none is damped. The unknown is
+// x_{n+1-af}, which inertia and dampers pull like springs.
 #include <fmt/format.h>
 
 #include <cmath>
@@ -20,16 +19,7 @@ namespace {
 constexpr double tolerance = 1e-8;  // of the balance of forces
 constexpr int most_parts = 256;     // of a step whose balance is not found
 
-struct GeneralisedAlpha {
-  double alpha_m, alpha_f, beta, gamma;
-
-  explicit GeneralisedAlpha(double radius)
-      : alpha_m((2.0 * radius - 1.0) / (radius + 1.0)),
-        alpha_f(radius / (radius + 1.0)),
-        beta(0.25 * std::pow(1.0 - alpha_m + alpha_f, 2)),
-        gamma(0.5 - alpha_m + alpha_f) {}
-};
-
+/// s a + t b
 std::vector<Vec3> combined(double s, std::span<const Vec3> a, double t, std::span<const Vec3> b) {
   std::vector<Vec3> sum(a.size());
   for (std::size_t i = 0; i < a.size(); ++i) sum[i] = s * a[i] + t * b[i];
@@ -42,6 +32,65 @@ void add(NodalMatrix& sum, double factor, const NodalMatrix& matrix) {
 }
 
 }  // namespace
+
+/// From x_n, v_n, a_n of the structure over `dt`: what follows from the position `at` of the balance.
+struct Structure::Data::ImplicitStep {
+  Data& d;
+  double dt;
+  std::vector<Vec3> way;  ///< x_{n+1} - x_n of what is held rigidly
+  double alpha_m, alpha_f, beta, gamma;
+  NodalMatrix damping;
+
+  ImplicitStep(Data& data, double time, double step) : d(data), dt(step), damping(data.dampers()) {
+    const double radius = d.options.spectral_radius;
+    alpha_m = (2.0 * radius - 1.0) / (radius + 1.0);
+    alpha_f = radius / (radius + 1.0);
+    beta = 0.25 * std::pow(1.0 - alpha_m + alpha_f, 2);
+    gamma = 0.5 - alpha_m + alpha_f;
+    d.set_time(time + dt);
+    way = d.way_of_held(d.x);
+    d.set_time(time + (1.0 - alpha_f) * dt);
+  }
+
+  struct State {
+    std::vector<Vec3> way, v, a;  ///< x_{n+1} - x_n, v_{n+1}, a_{n+1}
+  };
+  State state(std::span<const Vec3> at) const {
+    State s{combined(1.0, at, -1.0, d.x), {}, {}};
+    for (Vec3& u : s.way) u /= 1.0 - alpha_f;
+    const double per_square = 1.0 / (beta * dt * dt);
+    s.a = combined(1.0, combined(per_square, s.way, -per_square * dt, d.v), 1.0 - 0.5 / beta, d.acceleration);
+    s.v = combined(1.0, d.v, dt, combined(1.0 - gamma, d.acceleration, gamma, s.a));
+    d.for_each_rigid([&](std::size_t node, int axis) {
+      s.v[node][axis] = way[node][axis] / dt;
+      s.a[node][axis] = (s.v[node][axis] - d.v[node][axis]) / dt;
+    });
+    return s;
+  }
+
+  /// With inertia and dampers as forces.
+  Balance balance(std::span<const Vec3> at) const {
+    const State s = state(at);
+    const auto inertial = d.mass_matrix.times(combined(1.0 - alpha_m, s.a, alpha_m, d.acceleration));
+    const auto drag = damping.times(combined(1.0 - alpha_f, s.v, alpha_f, d.v));
+    return d.balance(at, combined(1.0, d.nodal_weight, -1.0, combined(1.0, inertial, 1.0, drag)));
+  }
+
+  /// Minus the derivative of the balance, but for the elements.
+  NodalMatrix springs() const {
+    NodalMatrix sum = d.tethers();
+    add(sum, (1.0 - alpha_m) / ((1.0 - alpha_f) * beta * dt * dt), d.mass_matrix);
+    add(sum, gamma / (beta * dt), damping);
+    return sum;
+  }
+
+  /// With the velocity it has, or where it is if that would tear an element.
+  std::vector<Vec3> first_guess() const {
+    std::vector<Vec3> guess = combined(1.0, d.x, (1.0 - alpha_f) * dt, d.v);
+    d.for_each_rigid([&](std::size_t node, int axis) { guess[node][axis] = d.x[node][axis]; });
+    return balance(guess).inside ? guess : d.x;
+  }
+};
 
 /// Damping of the own masses and of tethers [N s/m].
 NodalMatrix Structure::Data::dampers() const {
@@ -72,72 +121,19 @@ void Structure::Data::find_acceleration() {
   }
 }
 
-/// Adds the impulse of the holds; leaves everything as it was if no balance is found.
-NewtonOutcome Structure::Data::step_implicitly(double dt, double time, Vec3& impulse) {
-  const GeneralisedAlpha scheme(options.spectral_radius);
-  const double now = 1.0 - scheme.alpha_f;  // the share of the new state in that which is balanced
-  set_time(time + dt);
-  const std::vector<Vec3> way = way_of_held(x);
-  set_time(time + now * dt);
-
-  // What x_{n+1} - x_n says of the other fields.
-  const double per_square = 1.0 / (scheme.beta * dt * dt);
-  const auto new_acceleration = [&](std::span<const Vec3> moved) {
-    std::vector<Vec3> a = combined(per_square, moved, -per_square * dt, v);
-    return combined(1.0, a, 1.0 - 0.5 / scheme.beta, acceleration);
-  };
-  const auto new_velocity = [&](std::span<const Vec3> a) {
-    return combined(1.0, v, dt, combined(1.0 - scheme.gamma, acceleration, scheme.gamma, a));
-  };
-  const auto put_held = [&](std::vector<Vec3>& a, std::vector<Vec3>& velocity) {
-    for (std::size_t node = 0; node < x.size(); ++node) {
-      for (int axis = 0; axis < 3; ++axis) {
-        if (!is_rigid(static_cast<int>(node), axis)) continue;
-        velocity[node][axis] = way[node][axis] / dt;
-        a[node][axis] = (velocity[node][axis] - v[node][axis]) / dt;
-      }
-    }
-  };
-  struct State {
-    std::vector<Vec3> moved, velocity, acceleration;
-  };
-  const auto state_of = [&](std::span<const Vec3> at) {
-    State state;
-    state.moved = combined(1.0 / now, at, -1.0 / now, x);
-    state.acceleration = new_acceleration(state.moved);
-    state.velocity = new_velocity(state.acceleration);
-    put_held(state.acceleration, state.velocity);
-    return state;
-  };
-
-  const NodalMatrix damping = dampers();
-  const auto forces = [&](std::span<const Vec3> at) {
-    const State state = state_of(at);
-    const auto inertial =
-        mass_matrix.times(combined(1.0 - scheme.alpha_m, state.acceleration, scheme.alpha_m, acceleration));
-    const auto drag = damping.times(combined(now, state.velocity, scheme.alpha_f, v));
-    return balance(at, combined(1.0, combined(1.0, nodal_weight, -1.0, inertial), -1.0, drag));
-  };
-  NodalMatrix added = tethers();
-  add(added, (1.0 - scheme.alpha_m) * per_square / now, mass_matrix);
-  add(added, scheme.gamma / (scheme.beta * dt), damping);
-
-  std::vector<Vec3> at = combined(1.0, x, now * dt, v);
-  std::vector<Vec3> prescribed = combined(now, way, 0.0, way);
-  for (std::size_t node = 0; node < x.size(); ++node) {
-    for (int axis = 0; axis < 3; ++axis) {
-      if (is_rigid(static_cast<int>(node), axis)) at[node][axis] = x[node][axis];
-    }
-  }
-  if (!forces(at).inside) at = x;
-  const NewtonOutcome outcome = newton().solve(at, prescribed, forces, added, tolerance);
-  if (!outcome.balanced) return outcome;
-  impulse += dt * forces(at).reaction;
-  State state = state_of(at);
-  x = combined(1.0, x, 1.0, state.moved);
-  v = std::move(state.velocity);
-  acceleration = std::move(state.acceleration);
-  return outcome;
+/// False if no balance is found, and then nothing has changed. Adds the impulse of the holds.
+bool Structure::Data::step_implicitly(double dt, double time, Vec3& impulse) {
+  const ImplicitStep step(*this, time, dt);
+  std::vector<Vec3> at = step.first_guess(), prescribed = step.way;
+  for (Vec3& u : prescribed) u *= 1.0 - step.alpha_f;
+  const auto forces = [&](std::span<const Vec3> positions) { return step.balance(positions); };
+  if (!newton().solve(at, prescribed, forces, step.springs(), tolerance).balanced) return false;
+  impulse += dt * step.balance(at).reaction;
+  ImplicitStep::State next = step.state(at);
+  for (std::size_t node = 0; node < x.size(); ++node) x[node] += next.way[node];
+  v = std::move(next.v);
+  acceleration = std::move(next.a);
+  return true;
 }
 
 void Structure::Data::advance_implicitly(double dt, double time) {
@@ -149,18 +145,17 @@ void Structure::Data::advance_implicitly(double dt, double time) {
   Vec3 impulse = Vec3::Zero();
   for (int done = 0; done < substeps;) {
     const double part = dt / substeps, begin = time + done * part;
-    const NewtonOutcome outcome = step_implicitly(part, begin, impulse);
-    if (outcome.balanced) {
+    if (step_implicitly(part, begin, impulse)) {
       ++done;
-    } else if (substeps < most_parts) {
-      substeps *= 2;
-      done *= 2;
-    } else if (elements.out_of_bounds()) {
-      report_divergence(begin);
-    } else {
-      throw Diverged(
-          fmt::format("the forces of the structure do not balance at t = {:.6g} s in steps of {:.3g} s", begin, part));
+      continue;
     }
+    if (substeps == most_parts) {
+      if (elements.out_of_bounds()) report_divergence(begin);
+      throw Diverged(fmt::format(
+          "the forces of the structure find no balance at t = {:.6g} s, in steps as short as {:.3g} s", begin, part));
+    }
+    substeps *= 2;
+    done *= 2;
   }
   hold_impulse.front() += impulse;
   estimate_largest_frequency();
