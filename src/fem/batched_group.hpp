@@ -40,6 +40,12 @@ class BatchedGroup final : public ElementGroup {
     return reinterpret_cast<const double*>(forces_[element / lanes].component[local_node]) + element % lanes;
   }
 
+  void compute_stiffness(int batch, std::span<const Vec3> x, Pack* matrix) const override {
+    auto& stiffness = *reinterpret_cast<Stiffness<nodes_each>*>(matrix);
+    stiffness = {};
+    add_tangent(law_, fibre(), batches_[batch], x, stiffness);
+  }
+
   void add_volumes(std::span<double> nodal_volume) const override {
     for (int e = 0; e < count(); ++e) lump_volumes(batches_[e / lanes], e % lanes, nodal_volume);
   }

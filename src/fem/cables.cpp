@@ -59,6 +59,24 @@ VolumeRatio nodal_forces(const LinearCable& law, const ActiveFibre& fibre, const
   return range;
 }
 
+/// With N the tension and n the direction: (dN/dl) n n^T along the cable, N / l across it.
+void add_tangent(const LinearCable& law, const ActiveFibre& fibre, const CableBatch& batch, std::span<const Vec3> x,
+                 Stiffness<2>& stiffness) {
+  const Line line(batch, x);
+  const Pack scale = batch.point[0].weight * batch.inverse_length * batch.inverse_length, l = line.stretch;
+  const Pack along = scale * (law.tangent(l) + 2.0 * fibre.tension * l);
+  const Pack across = scale * (law.stress(l) + fibre.tension * l * l) / line.divisor();
+  for (int i = 0; i < 3; ++i) {
+    for (int k = 0; k < 3; ++k) {
+      const Pack projection = line.way[i] * line.way[k] / (line.divisor() * line.divisor());
+      const Pack entry = (along - across) * projection + (i == k ? across : Pack{});
+      for (int a = 0; a < 2; ++a) {
+        for (int b = 0; b < 2; ++b) stiffness.component[a][i][b][k] += a == b ? entry : -entry;
+      }
+    }
+  }
+}
+
 Pack energy(const LinearCable& law, const CableBatch& batch, std::span<const Vec3> x) {
   return batch.point[0].weight * law.energy(Line(batch, x).stretch);
 }

@@ -3,6 +3,7 @@
 // a batch type and these functions of it, with the law of the material as a template parameter:
 //   prepare_geometry   reference geometry; of an inverted or flat element some weight is not positive
 //   nodal_forces       minus the gradient of the energy, with the active stress; and the range of the volume ratio
+//   add_tangent        adds minus the derivative of nodal_forces with the positions to a matrix
 //   energy             of each element [J]
 //   volume_ratio       its range over the Gauss points
 //   lump_volumes       reference volume on the nodes [m^3]
@@ -28,6 +29,11 @@ using BatchNodes = std::array<std::array<int, lanes>, N>;
 template <std::size_t N>
 struct NodalForces {
   Pack component[N][3];  ///< [local node][axis] [N]
+};
+
+template <std::size_t N>
+struct Stiffness {
+  Pack component[N][3][N][3];  ///< [node of the force][axis][node that moves][axis] [N/m]
 };
 
 /// Smallest and largest volume ratio J, lane by lane.

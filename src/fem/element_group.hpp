@@ -34,6 +34,9 @@ class ForceGroup {
 
   /// Forces of a batch at positions `x`, for force_on() to read; whether the state is within bounds.
   virtual bool compute_forces(int batch, std::span<const Vec3> x) = 0;
+  /// Minus the derivative of the forces with the positions, there: a batch's matrix, [row][column] for the coordinates
+  /// x, y, z of the first node, of the second and so on [N/m].
+  virtual void compute_stiffness(int batch, std::span<const Vec3> x, Pack* matrix) const = 0;
   /// Where the x component of the force on a node of an element is kept; y and z follow at distances of `lanes`.
   virtual const double* force_on(int element, int local_node) const = 0;
 

@@ -86,6 +86,15 @@ void Elements::lump(std::size_t nodes) {
   }
 }
 
+std::vector<const ForceGroup*> Elements::force_groups() const {
+  std::vector<const ForceGroup*> all;
+  for (const auto& group : groups_) all.push_back(group.get());
+  for (const Faces& faces : faces_) {
+    for (const auto& group : faces.groups) all.push_back(group.get());
+  }
+  return all;
+}
+
 int Elements::count() const {
   int sum = 0;
   for (const auto& group : groups_) sum += group->count();
@@ -99,14 +108,10 @@ int Elements::threads() const {
 
 void Elements::connect_nodes(const Mesh& mesh) {
   first_slot_.assign(mesh.nodes.size() + 1, 0);
-  const auto count = [&](const ForceGroup& group) {
-    for (int e = 0; e < group.count(); ++e) {
-      for (const int node : group.nodes_of(e)) ++first_slot_[node + 1];
+  for (const ForceGroup* group : force_groups()) {
+    for (int e = 0; e < group->count(); ++e) {
+      for (const int node : group->nodes_of(e)) ++first_slot_[node + 1];
     }
-  };
-  for (const auto& group : groups_) count(*group);
-  for (const Faces& faces : faces_) {
-    for (const auto& group : faces.groups) count(*group);
   }
   for (std::size_t node = 0; node < mesh.nodes.size(); ++node) {
     if (nodal_volume_[node] == 0.0) {

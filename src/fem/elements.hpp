@@ -26,6 +26,8 @@ class Elements {
 
   /// Those of the first region first, quadrilaterals before triangles.
   const std::vector<std::unique_ptr<ElementGroup>>& groups() const { return groups_; }
+  /// All that have forces: groups(), then the faces that bear a pressure.
+  std::vector<const ForceGroup*> force_groups() const;
   int count() const;
   /// As many threads as have enough elements each to be worth their barriers.
   int threads() const;

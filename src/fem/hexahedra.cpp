@@ -83,6 +83,60 @@ VolumeRatio nodal_forces(const Law& law, const ActiveFibre& fibre, const HexBatc
   return range;
 }
 
+/// Derivatives of the shape functions at a Gauss point, [node][axis].
+inline std::array<std::array<Pack, 3>, 8> shape_gradients(const HexBatch::Point& reference, int point) {
+  constexpr double near = 0.5 * (1.0 + gauss_abscissa), far = 1.0 - near;
+  std::array<std::array<Pack, 3>, 8> gradient{};
+  for (int direction = 0; direction < 3; ++direction) {
+    for (int line = 0; line < 4; ++line) {
+      const int apart = line ^ line_through(direction, point);  // across, in each of two directions
+      const double slope = 0.5 * (apart & 1 ? far : near) * (apart & 2 ? far : near);
+      const auto [first, last] = hex_edge[direction][line];
+      for (int axis = 0; axis < 3; ++axis) {
+        const Pack part = slope * reference.inverse_jacobian(direction, axis);
+        gradient[first][axis] -= part;
+        gradient[last][axis] += part;
+      }
+    }
+  }
+  return gradient;
+}
+
+/// d(J T F f0 f0^T) in the direction dF.
+Tensor<Pack> active_tangent(const ActiveFibre& fibre, const Tensor<Pack>& f, const Pack& j, const Tensor<Pack>& df) {
+  return active_stress(fibre, f, dot(cofactor(f), df)) + active_stress(fibre, df, j);
+}
+
+template <class Law>
+void add_tangent(const Law& law, const ActiveFibre& fibre, const HexBatch& batch, std::span<const Vec3> x,
+                 Stiffness<8>& stiffness) {
+  LineField derivatives = edge_derivatives(batch, x);
+  interpolate_lines(derivatives);
+  for (int point = 0; point < 8; ++point) {
+    const HexBatch::Point& reference = batch.point[point];
+    const Tensor<Pack> f = at_gauss_point(derivatives, point) * reference.inverse_jacobian;
+    const auto gradient = shape_gradients(reference, point);
+    for (int k = 0; k < 3; ++k) {
+      Tensor<Pack> moduli[3];  // change of the stress with F_k0, F_k1, F_k2
+      for (int l = 0; l < 3; ++l) {
+        const auto unit = tensor<Pack>([&](int i, int j) { return i == k && j == l ? splat<Pack>(1.0) : Pack{}; });
+        moduli[l] = law.tangent(f, unit);
+        if (fibre.tension != 0.0) moduli[l] = moduli[l] + active_tangent(fibre, f, determinant(f), unit);
+        moduli[l] = reference.weight * moduli[l];
+      }
+      for (int b = 0; b < 8; ++b) {
+        const Tensor<Pack> dp = gradient[b][0] * moduli[0] + gradient[b][1] * moduli[1] + gradient[b][2] * moduli[2];
+        for (int a = 0; a < 8; ++a) {
+          for (int i = 0; i < 3; ++i) {
+            stiffness.component[a][i][b][k] +=
+                dp(i, 0) * gradient[a][0] + dp(i, 1) * gradient[a][1] + dp(i, 2) * gradient[a][2];
+          }
+        }
+      }
+    }
+  }
+}
+
 template <class Law>
 Pack energy(const Law& law, const HexBatch& batch, std::span<const Vec3> x) {
   LineField derivatives = edge_derivatives(batch.node, x);

@@ -178,6 +178,50 @@ VolumeRatio nodal_forces(const Law& law, const ActiveFibre& fibre, const Membran
   return range;
 }
 
+/// With g_a the gradient of a shape function: w (g_a . S g_b I + F dS(F, g_b) g_a).
+template <class Law, std::size_t N>
+void add_tangent(const Law& law, const ActiveFibre& fibre, const MembraneBatch<N>& batch, std::span<const Vec3> x,
+                 Stiffness<N>& stiffness) {
+  using Shape = SurfaceShape<N>;
+  const Corners<N> corners(batch, x);
+  const Pack one = splat<Pack>(1.0), none{};
+  const PlaneTensor<Pack> unit[3] = {{one, none, none}, {none, one, none}, {none, none, one}};
+  for (int q = 0; q < Shape::points; ++q) {
+    const auto& [a, weight] = batch.point[q];
+    const SurfaceGradient f = deformation(corners, Shape::gradient[q], a);
+    const PlaneTensor<Pack> c = gram(f);
+    PlaneTensor<Pack> stress = law.stress(c), moduli[3];
+    stress.xx += fibre.tension * law.volume_ratio(c);
+    for (int m = 0; m < 3; ++m) {
+      moduli[m] = law.tangent(c, unit[m]);
+      if (fibre.tension != 0.0) moduli[m].xx += fibre.tension * law.volume_change(c, unit[m]);
+    }
+    Pack gradient[N][2];
+    for (std::size_t n = 0; n < N; ++n) {
+      for (int j = 0; j < 2; ++j) {
+        gradient[n][j] = Shape::gradient[q][n][0] * a.at[0][j] + Shape::gradient[q][n][1] * a.at[1][j];
+      }
+    }
+    for (std::size_t b = 0; b < N; ++b) {
+      const Pack g0 = gradient[b][0], g1 = gradient[b][1];
+      const Pack traction[2] = {weight * (stress.xx * g0 + stress.xy * g1), weight * (stress.xy * g0 + stress.yy * g1)};
+      for (int k = 0; k < 3; ++k) {
+        const Pack f0 = f.at[k][0], f1 = f.at[k][1];
+        const PlaneTensor<Pack> ds = (2.0 * weight * f0 * g0) * moduli[0] + (2.0 * weight * f1 * g1) * moduli[1] +
+                                     (weight * (f0 * g1 + f1 * g0)) * moduli[2];
+        for (std::size_t n = 0; n < N; ++n) {
+          const Pack along[2] = {ds.xx * gradient[n][0] + ds.xy * gradient[n][1],
+                                 ds.xy * gradient[n][0] + ds.yy * gradient[n][1]};
+          for (int i = 0; i < 3; ++i) {
+            stiffness.component[n][i][b][k] += f.at[i][0] * along[0] + f.at[i][1] * along[1];
+          }
+          stiffness.component[n][k][b][k] += gradient[n][0] * traction[0] + gradient[n][1] * traction[1];
+        }
+      }
+    }
+  }
+}
+
 template <class Law, std::size_t N>
 Pack energy(const Law& law, const MembraneBatch<N>& batch, std::span<const Vec3> x) {
   using Shape = SurfaceShape<N>;

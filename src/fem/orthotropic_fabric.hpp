@@ -41,6 +41,12 @@ struct OrthotropicFabric {
     return square_root(larger(determinant(c), T{}));
   }
 
+  /// Its derivative in the direction dC.
+  template <class T>
+  T volume_change(const PlaneTensor<T>& c, const PlaneTensor<T>& dc) const {
+    return 0.5 * determinant_change(c, dc) / square_root(determinant(c));
+  }
+
  private:
   template <class T>
   PlaneTensor<T> of_strain(const PlaneTensor<T>& e) const {

@@ -18,7 +18,7 @@ struct Uniaxial {
   T energy;         ///< [J/m^3]
   T stress, slope;  ///< second Piola-Kirchhoff [Pa], and its derivative with mu
   T lateral;        ///< squared stretch in the plane across the tension
-  T volume_ratio;
+  T volume_ratio, volume_slope;
 };
 
 struct PlaneNeoHookean {
@@ -43,10 +43,8 @@ struct PlaneNeoHookean {
   PlaneTensor<T> tangent(const PlaneTensor<T>& c, const PlaneTensor<T>& dc) const {
     const State<T> s = state(c);
     const PlaneTensor<T> c_inverse = inverse(c);
-    const T tt = s.thickness_squared, tr = trace(c);
-    const T dlog_area = 0.5 * dot(c_inverse, dc);
-    const T dlog_t = (dlog_area * ((2.0 / 9.0) * s.g * (2.0 * tt - tr) - solid.bulk) + (1.0 / 3.0) * s.g * trace(dc)) /
-                     slope(s.g, tt, tr);
+    const T tt = s.thickness_squared;
+    const T dlog_area = 0.5 * dot(c_inverse, dc), dlog_t = thickness_change(s, c, dlog_area, dc);
     const T dlog_g = (-2.0 / 3.0) * (dlog_area + dlog_t);
     return (s.g * dlog_g) * deviation(c_inverse, tt) -
            (s.g * tt) * ((2.0 * dlog_t) * c_inverse - sandwich(c_inverse, dc));
@@ -55,6 +53,14 @@ struct PlaneNeoHookean {
   template <class T>
   T volume_ratio(const PlaneTensor<T>& c) const {
     return exp(state(c).log_j);
+  }
+
+  /// Its derivative in the direction dC.
+  template <class T>
+  T volume_change(const PlaneTensor<T>& c, const PlaneTensor<T>& dc) const {
+    const State<T> s = state(c);
+    const T dlog_area = 0.5 * dot(inverse(c), dc);
+    return exp(s.log_j) * (dlog_area + thickness_change(s, c, dlog_area, dc));
   }
 
   /// Both lateral stretches are equal, t: g (t^2 - mu) / 3 + kappa ln J = 0.
@@ -73,9 +79,13 @@ struct PlaneNeoHookean {
     }
     const T half_over_mu = 0.5 / mu;
     const T dlog_t = -(half_over_mu * (solid.bulk - (2.0 / 9.0) * g * (tt - mu)) - (1.0 / 3.0) * g) / rise;
-    const T dlog_g = (-2.0 / 3.0) * (half_over_mu + 2.0 * dlog_t), share = tt / mu;
-    return {energy_of(log_j, mu + 2.0 * tt), g * (1.0 - share),
-            g * (dlog_g * (1.0 - share) + share * (1.0 / mu - 2.0 * dlog_t)), tt, exp(log_j)};
+    const T dlog_j = half_over_mu + 2.0 * dlog_t, dlog_g = (-2.0 / 3.0) * dlog_j, share = tt / mu, j = exp(log_j);
+    return {energy_of(log_j, mu + 2.0 * tt),
+            g * (1.0 - share),
+            g * (dlog_g * (1.0 - share) + share * (1.0 / mu - 2.0 * dlog_t)),
+            tt,
+            j,
+            j * dlog_j};
   }
 
  private:
@@ -100,6 +110,14 @@ struct PlaneNeoHookean {
   template <class T>
   T slope(const T& g, const T& thickness_squared, const T& trace) const {
     return (2.0 / 9.0) * g * (4.0 * thickness_squared + trace) + solid.bulk;
+  }
+
+  /// d(ln t) in the direction dC, in which the logarithm of the area changes by `dlog_area`.
+  template <class T>
+  T thickness_change(const State<T>& s, const PlaneTensor<T>& c, const T& dlog_area, const PlaneTensor<T>& dc) const {
+    const T tt = s.thickness_squared, tr = trace(c);
+    return (dlog_area * ((2.0 / 9.0) * s.g * (2.0 * tt - tr) - solid.bulk) + (1.0 / 3.0) * s.g * trace(dc)) /
+           slope(s.g, tt, tr);
   }
 
   /// Newton's method from the thickness of an incompressible sheet.

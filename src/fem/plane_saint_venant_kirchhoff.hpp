@@ -34,20 +34,34 @@ struct PlaneSaintVenantKirchhoff {
 
   template <class T>
   T volume_ratio(const PlaneTensor<T>& c) const {
-    const T thickness_squared = 1.0 - contraction() * (trace(c) - 2.0);
-    return square_root(larger(thickness_squared * determinant(c), T{}));
+    return square_root(larger(thickness_squared(c) * determinant(c), T{}));
+  }
+
+  /// Its derivative in the direction dC.
+  template <class T>
+  T volume_change(const PlaneTensor<T>& c, const PlaneTensor<T>& dc) const {
+    const T tt = thickness_squared(c);
+    return 0.5 * (tt * determinant_change(c, dc) - contraction() * trace(dc) * determinant(c)) /
+           square_root(tt * determinant(c));
   }
 
   template <class T>
   Uniaxial<T> uniaxial(const T& mu) const {
     const double poisson = 0.5 * solid.lambda / (solid.lambda + solid.shear);
     const double young = 2.0 * solid.shear * (1.0 + poisson);
-    const T e = 0.5 * (mu - 1.0), lateral = 1.0 - poisson * (mu - 1.0);
-    return {0.5 * young * e * e, young * e, splat<T>(0.5 * young), lateral, square_root(larger(mu, T{})) * lateral};
+    const T e = 0.5 * (mu - 1.0), lateral = 1.0 - poisson * (mu - 1.0), stretch = square_root(larger(mu, T{}));
+    return {0.5 * young * e * e,   young * e,
+            splat<T>(0.5 * young), lateral,
+            stretch * lateral,     0.5 * lateral / stretch - poisson * stretch};
   }
 
  private:
   double contraction() const { return solid.lambda / (solid.lambda + 2.0 * solid.shear); }
+
+  template <class T>
+  T thickness_squared(const PlaneTensor<T>& c) const {
+    return 1.0 - contraction() * (trace(c) - 2.0);
+  }
 
   template <class T>
   PlaneTensor<T> of_strain(const PlaneTensor<T>& e) const {

@@ -34,6 +34,12 @@ inline T determinant(const PlaneTensor<T>& a) {
   return a.xx * a.yy - a.xy * a.xy;
 }
 
+/// Of the determinant in the direction da.
+template <class T>
+inline T determinant_change(const PlaneTensor<T>& a, const PlaneTensor<T>& da) {
+  return a.xx * da.yy + a.yy * da.xx - 2.0 * (a.xy * da.xy);
+}
+
 /// a : b
 template <class T>
 inline T dot(const PlaneTensor<T>& a, const PlaneTensor<T>& b) {

@@ -23,22 +23,39 @@ class Faces final : public PressureGroup {
     NodalForces<N>& forces = forces_[batch];
     forces = {};
     for (int q = 0; q < Shape::points; ++q) {
-      Pack along[2][3]{};
-      for (std::size_t a = 0; a < N; ++a) {
-        for (int axis = 0; axis < 3; ++axis) {
-          const Pack position = gather(batch_[batch][a], x, axis);
-          for (int direction = 0; direction < 2; ++direction) {
-            along[direction][axis] += Shape::gradient[q][a][direction] * position;
-          }
-        }
-      }
+      const Tangents along = tangents(batch, x, q);
       for (int axis = 0; axis < 3; ++axis) {
         const int i = (axis + 1) % 3, j = (axis + 2) % 3;
-        const Pack push = pressure_ * Shape::weight * (along[0][i] * along[1][j] - along[0][j] * along[1][i]);
+        const Pack push =
+            pressure_ * Shape::weight * (along.at[0][i] * along.at[1][j] - along.at[0][j] * along.at[1][i]);
         for (std::size_t a = 0; a < N; ++a) forces.component[a][axis] += Shape::value[q][a] * push;
       }
     }
     return true;
+  }
+
+  /// Unsymmetric face by face; in the sum over a surface that is closed, or whose edge is held, the difference cancels.
+  void compute_stiffness(int batch, std::span<const Vec3> x, Pack* matrix) const override {
+    using Shape = SurfaceShape<N>;
+    auto& stiffness = *reinterpret_cast<Stiffness<N>*>(matrix);
+    stiffness = {};
+    for (int q = 0; q < Shape::points; ++q) {
+      const Tangents along = tangents(batch, x, q);
+      const double push = pressure_ * Shape::weight;
+      for (std::size_t b = 0; b < N; ++b) {
+        const double(&gradient)[2] = Shape::gradient[q][b];
+        for (int k = 0; k < 3; ++k) {
+          // e_k x (g_0 t_1 - g_1 t_0), of which only the two components across e_k are not zero
+          const int i = (k + 1) % 3, j = (k + 2) % 3;
+          const Pack of_i = push * (gradient[0] * along.at[1][j] - gradient[1] * along.at[0][j]);
+          const Pack of_j = push * (gradient[0] * along.at[1][i] - gradient[1] * along.at[0][i]);
+          for (std::size_t a = 0; a < N; ++a) {
+            stiffness.component[a][i][b][k] += Shape::value[q][a] * of_i;
+            stiffness.component[a][j][b][k] -= Shape::value[q][a] * of_j;
+          }
+        }
+      }
+    }
   }
 
   const double* force_on(int element, int local_node) const override {
@@ -46,6 +63,22 @@ class Faces final : public PressureGroup {
   }
 
  private:
+  struct Tangents {
+    Pack at[2][3];  ///< t_0 and t_1: derivatives of the position along the parent directions
+  };
+  Tangents tangents(int batch, std::span<const Vec3> x, int point) const {
+    Tangents along{};
+    for (std::size_t a = 0; a < N; ++a) {
+      for (int axis = 0; axis < 3; ++axis) {
+        const Pack position = gather(batch_[batch][a], x, axis);
+        for (int direction = 0; direction < 2; ++direction) {
+          along.at[direction][axis] += SurfaceShape<N>::gradient[point][a][direction] * position;
+        }
+      }
+    }
+    return along;
+  }
+
   std::vector<BatchNodes<N>> batch_;
   std::vector<NodalForces<N>> forces_;
 };

@@ -60,6 +60,15 @@ struct TensionField {
     return slack ? splat<T>(1.0) : taut ? law.volume_ratio(c_where(taut, c)) : u.volume_ratio;
   }
 
+  /// Its derivative in the direction dC.
+  template <class T>
+  T volume_change(const PlaneTensor<T>& c, const PlaneTensor<T>& dc) const {
+    const Principal<T> p(c);
+    const Uniaxial<T> u = law.uniaxial(p.larger);
+    const auto slack = p.larger <= 1.0, taut = !(p.smaller < u.lateral);
+    return slack ? T{} : taut ? law.volume_change(c_where(taut, c), dc) : u.volume_slope * dot(p.direction, dc);
+  }
+
  private:
   template <class T>
   struct Principal {
