@@ -11,6 +11,9 @@
 
 namespace drogue::fem {
 
+inline constexpr const char* hexahedron_expected =
+    "the nodes of a convex hexahedron, bottom face counter-clockwise, then top face";
+
 /// A vector field on the twelve edges or, interpolated, on the lines through the Gauss points, numbered like the edges.
 struct LineField {
   Pack at[3][4][3];  ///< [parent direction][line][axis]
@@ -90,15 +93,19 @@ inline Tensor<Pack> active_stress(const ActiveFibre& fibre, const Tensor<Pack>& 
       [&](int i, int k) { return fibre.tension * f0[k] * j * (f(i, 0) * f0[0] + f(i, 1) * f0[1] + f(i, 2) * f0[2]); });
 }
 
+/// Its derivative in the direction dF.
+inline Tensor<Pack> active_tangent(const ActiveFibre& fibre, const Tensor<Pack>& f, const Tensor<Pack>& df) {
+  return active_stress(fibre, f, dot(cofactor(f), df)) + active_stress(fibre, df, determinant(f));
+}
+
+/// Adds the reference volume of a lane's hexahedron to its nodes.
 template <class Batch>
 void lump_hexahedron(const Batch& batch, int lane, std::span<double> volume) {
   constexpr double near = 0.5 * (1.0 + gauss_abscissa), far = 1.0 - near;
-  // Corners of the parent cube in the order of an element's nodes, as bits of (xi, eta, zeta).
-  constexpr int corner[8] = {0, 1, 3, 2, 4, 5, 7, 6};
   for (int a = 0; a < 8; ++a) {
     for (int q = 0; q < 8; ++q) {
       double shape = 1.0;
-      for (int axis = 0; axis < 3; ++axis) shape *= ((corner[a] ^ q) >> axis) & 1 ? far : near;
+      for (int axis = 0; axis < 3; ++axis) shape *= ((corner_of_node[a] ^ q) >> axis) & 1 ? far : near;
       volume[batch.node[a][lane]] += shape * batch.point[q].weight[lane];
     }
   }

@@ -14,8 +14,7 @@ namespace {
 struct HexBatch {
   static constexpr int nodes = 8;
   static constexpr const char* name = "hexahedron";
-  static constexpr const char* expected =
-      "the nodes of a convex hexahedron, bottom face counter-clockwise, then top face";
+  static constexpr const char* expected = hexahedron_expected;
 
   struct Point {
     Tensor<Pack> inverse_jacobian;  ///< A [1/m]
@@ -102,15 +101,10 @@ inline std::array<std::array<Pack, 3>, 8> shape_gradients(const HexBatch::Point&
   return gradient;
 }
 
-/// d(J T F f0 f0^T) in the direction dF.
-Tensor<Pack> active_tangent(const ActiveFibre& fibre, const Tensor<Pack>& f, const Pack& j, const Tensor<Pack>& df) {
-  return active_stress(fibre, f, dot(cofactor(f), df)) + active_stress(fibre, df, j);
-}
-
 template <class Law>
 void add_tangent(const Law& law, const ActiveFibre& fibre, const HexBatch& batch, std::span<const Vec3> x,
                  Stiffness<8>& stiffness) {
-  LineField derivatives = edge_derivatives(batch, x);
+  LineField derivatives = edge_derivatives(batch.node, x);
   interpolate_lines(derivatives);
   for (int point = 0; point < 8; ++point) {
     const HexBatch::Point& reference = batch.point[point];
@@ -121,7 +115,7 @@ void add_tangent(const Law& law, const ActiveFibre& fibre, const HexBatch& batch
       for (int l = 0; l < 3; ++l) {
         const auto unit = tensor<Pack>([&](int i, int j) { return i == k && j == l ? splat<Pack>(1.0) : Pack{}; });
         moduli[l] = law.tangent(f, unit);
-        if (fibre.tension != 0.0) moduli[l] = moduli[l] + active_tangent(fibre, f, determinant(f), unit);
+        if (fibre.tension != 0.0) moduli[l] = moduli[l] + active_tangent(fibre, f, unit);
         moduli[l] = reference.weight * moduli[l];
       }
       for (int b = 0; b < 8; ++b) {

@@ -20,7 +20,7 @@ enum class Hexahedron {
 /// Hexahedra.
 struct Solid {
   Material material;
-  Hexahedron element = Hexahedron::trilinear;
+  Hexahedron element = Hexahedron::assumed_strain;
 };
 
 /// Quadrilaterals and triangles: stress in their plane alone, no bending.

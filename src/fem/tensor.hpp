@@ -28,6 +28,11 @@ inline Tensor<T> operator+(const Tensor<T>& a, const Tensor<T>& b) {
 }
 
 template <class T>
+inline Tensor<T>& operator+=(Tensor<T>& a, const Tensor<T>& b) {
+  return a = a + b;
+}
+
+template <class T>
 inline Tensor<T> operator-(const Tensor<T>& a, const Tensor<T>& b) {
   return tensor<T>([&](int i, int j) { return a(i, j) - b(i, j); });
 }
@@ -59,6 +64,11 @@ struct Vector {
 template <class T>
 inline Vector<T> operator+(const Vector<T>& a, const Vector<T>& b) {
   return {a(0) + b(0), a(1) + b(1), a(2) + b(2)};
+}
+
+template <class T>
+inline Vector<T>& operator+=(Vector<T>& a, const Vector<T>& b) {
+  return a = a + b;
 }
 
 template <class T>
