@@ -31,9 +31,9 @@ std::vector<Vec3> deformed(const Mesh& mesh) {
   return x;
 }
 
-void forces(benchmark::State& state, const Material& material) {
+void forces(benchmark::State& state, const Material& material, Hexahedron element) {
   const Mesh mesh = plate();
-  const std::vector<Region> regions{{"", 1.0, Solid{material}}};
+  const std::vector<Region> regions{{"", 1.0, Solid{material, element}}};
   Elements elements(mesh, regions, {}, {0.05, 20.0});
   const std::vector<Vec3> x = deformed(mesh);
   for (auto _ : state) elements.compute_forces(x);
@@ -76,8 +76,10 @@ void advance(benchmark::State& state, const Material& material) {
 const NeoHookean neo_hookean(1e3, 0.3, 0.3);
 const SaintVenantKirchhoff saint_venant_kirchhoff(1e3, 0.3);
 
-BENCHMARK_CAPTURE(forces, neo_hookean, neo_hookean);
-BENCHMARK_CAPTURE(forces, saint_venant_kirchhoff, saint_venant_kirchhoff);
+BENCHMARK_CAPTURE(forces, neo_hookean / trilinear, neo_hookean, Hexahedron::trilinear);
+BENCHMARK_CAPTURE(forces, neo_hookean / assumed_strain, neo_hookean, Hexahedron::assumed_strain);
+BENCHMARK_CAPTURE(forces, saint_venant_kirchhoff / trilinear, saint_venant_kirchhoff, Hexahedron::trilinear);
+BENCHMARK_CAPTURE(forces, saint_venant_kirchhoff / assumed_strain, saint_venant_kirchhoff, Hexahedron::assumed_strain);
 BENCHMARK_CAPTURE(stable_step, neo_hookean, neo_hookean);
 BENCHMARK_CAPTURE(stable_step, saint_venant_kirchhoff, saint_venant_kirchhoff);
 BENCHMARK_CAPTURE(advance, neo_hookean, neo_hookean)->Arg(1)->Arg(2)->UseRealTime();

@@ -118,6 +118,12 @@ fem::ActiveStress read_active(Section section) {
 
 constexpr const char* active_doc = "active stress, of elements that pull by themselves";
 
+fem::Hexahedron read_element(Section& section) {
+  return section.choose<fem::Hexahedron>(
+      "element", {{"trilinear", fem::Hexahedron::trilinear}, {"assumed_strain", fem::Hexahedron::assumed_strain}},
+      {.doc = "of a solid: trilinear, which is too stiff in bending, or assumed_strain", .fallback = "trilinear"});
+}
+
 /// A membrane has a thickness, a cable the law of one; the rest is solid.
 fem::Region read_region(Section& section) {
   fem::Region region;
@@ -127,6 +133,7 @@ fem::Region read_region(Section& section) {
     region.kind = read_membrane(section, material, Law::neo_hookean);
     read_fabric(material);
     read_section(section);
+    read_element(section);
   }
   const Law law = read_law(material);
   if (law == Law::cable || section.describing()) {
@@ -135,9 +142,9 @@ fem::Region read_region(Section& section) {
   } else if (law == Law::fabric || section.has("thickness")) {
     region.kind = read_membrane(section, material, law);
   } else if (law == Law::neo_hookean) {
-    region.kind = fem::Solid{read_neo_hookean(material)};
+    region.kind = fem::Solid{read_neo_hookean(material), read_element(section)};
   } else {
-    region.kind = fem::Solid{read_saint_venant_kirchhoff(material)};
+    region.kind = fem::Solid{read_saint_venant_kirchhoff(material), read_element(section)};
   }
   region.active = read_active(section.section("active", active_doc));
   return region;

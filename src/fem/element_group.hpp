@@ -107,6 +107,8 @@ class ElementGroup : public ForceGroup {
 /// element.
 std::unique_ptr<ElementGroup> make_hexahedra(const Solid& solid, const GroupDescription& group, const Mesh& mesh,
                                              const std::vector<int>& elements);
+std::unique_ptr<ElementGroup> make_assumed_strain_hexahedra(const Solid& solid, const GroupDescription& group,
+                                                            const Mesh& mesh, const std::vector<int>& elements);
 std::unique_ptr<ElementGroup> make_quadrilaterals(const Membrane& membrane, const GroupDescription& group,
                                                   const Mesh& mesh, const std::vector<int>& elements);
 std::unique_ptr<ElementGroup> make_triangles(const Membrane& membrane, const GroupDescription& group, const Mesh& mesh,

@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Edges of an eight-node hexahedron in VTK's numbering, whose parent is the cube [-1, 1]^3.
+// Corners and edges of an eight-node hexahedron in VTK's numbering, whose parent is the cube [-1, 1]^3.
 #pragma once
 
 namespace drogue::fem {
+
+/// The corner at which a node lies: bit d for the side xi_d > 0.
+inline constexpr int corner_of_node[8] = {0, 1, 3, 2, 4, 5, 7, 6};
 
 /// First and last node of the four edges along each parent direction. An edge's place is that along the two other
 /// directions, 0 or 1 each, the lower one counting 1 and the higher one 2.

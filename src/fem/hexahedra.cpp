@@ -6,8 +6,7 @@
 // F = D A with the stored A = (dX/dxi)^{-1}, and the forces are the transposed interpolation of w P A^T, w = det
 // dX/dxi. That is a third of the arithmetic and of the memory traffic of eight stored gradients per Gauss point.
 #include "fem/batched_group.hpp"
-#include "fem/hex_topology.hpp"
-#include "fem/tensor.hpp"
+#include "fem/hex_kernel.hpp"
 
 namespace drogue::fem {
 namespace {
@@ -15,8 +14,7 @@ namespace {
 struct HexBatch {
   static constexpr int nodes = 8;
   static constexpr const char* name = "hexahedron";
-  static constexpr const char* expected =
-      "the nodes of a convex hexahedron, bottom face counter-clockwise, then top face";
+  static constexpr const char* expected = hexahedron_expected;
 
   struct Point {
     Tensor<Pack> inverse_jacobian;  ///< A [1/m]
@@ -26,69 +24,6 @@ struct HexBatch {
   std::array<Point, 8> point;  ///< 2x2x2 Gauss points, xi fastest
   Point centre;
 };
-
-/// A vector field on the twelve edges or, interpolated, on the lines through the Gauss points, numbered like the edges.
-struct LineField {
-  Pack at[3][4][3];  ///< [parent direction][line][axis]
-};
-
-/// The line along `direction` through a Gauss point.
-constexpr int line_through(int direction, int point) {
-  const int x = point & 1, y = (point >> 1) & 1, z = point >> 2;
-  if (direction == 0) return y + 2 * z;
-  return direction == 1 ? x + 2 * z : x + 2 * y;
-}
-
-/// Linear interpolation between two places at -1 and 1 to the two Gauss points; it is its own transpose.
-inline void interpolate(Pack& first, Pack& last) {
-  const Pack mean = 0.5 * (first + last);
-  const Pack slope = (0.5 * gauss_abscissa) * (last - first);
-  first = mean - slope;
-  last = mean + slope;
-}
-
-inline void interpolate_lines(LineField& field) {
-  for (auto& direction : field.at) {
-    for (int axis = 0; axis < 3; ++axis) {
-      interpolate(direction[0][axis], direction[1][axis]);
-      interpolate(direction[2][axis], direction[3][axis]);
-      interpolate(direction[0][axis], direction[2][axis]);
-      interpolate(direction[1][axis], direction[3][axis]);
-    }
-  }
-}
-
-/// Derivatives of the positions along the edges.
-inline LineField edge_derivatives(const HexBatch& batch, std::span<const Vec3> x) {
-  Pack position[8][3];
-  for (int a = 0; a < 8; ++a) {
-    for (int axis = 0; axis < 3; ++axis) {
-      position[a][axis] = gather(batch.node[a], x, axis);
-    }
-  }
-  LineField field;
-  for (int direction = 0; direction < 3; ++direction) {
-    for (int line = 0; line < 4; ++line) {
-      const auto [first, last] = hex_edge[direction][line];
-      for (int axis = 0; axis < 3; ++axis) {
-        field.at[direction][line][axis] = 0.5 * (position[last][axis] - position[first][axis]);
-      }
-    }
-  }
-  return field;
-}
-
-inline Tensor<Pack> at_gauss_point(const LineField& field, int point) {
-  return tensor<Pack>(
-      [&](int axis, int direction) { return field.at[direction][line_through(direction, point)][axis]; });
-}
-
-inline Tensor<Pack> at_centre(const LineField& edges) {
-  return tensor<Pack>([&](int axis, int direction) {
-    const auto& lines = edges.at[direction];
-    return 0.25 * (lines[0][axis] + lines[1][axis] + lines[2][axis] + lines[3][axis]);
-  });
-}
 
 inline HexBatch::Point geometry(const Tensor<Pack>& jacobian) {
   const Pack weight = determinant(jacobian);
@@ -119,46 +54,19 @@ inline void forces_of_flux(LineField& flux, NodalForces<8>& forces) {
   }
 }
 
-/// Upper bound of the largest eigenvalue of a symmetric tensor: mean + 2 sqrt(p), p = |q - mean|^2 / 6. Exact if the
-/// two others are equal, as those of the acoustic tensor of an isotropic solid are; at most 4/3 of it for a positive
-/// one.
-inline Pack largest_eigenvalue_bound(const Tensor<Pack>& q) {
-  const Pack mean = (1.0 / 3.0) * trace(q);
-  const Pack deviation = larger(dot(q, q) - 3.0 * mean * mean, Pack{});
-  return mean + 2.0 * square_root(deviation * (1.0 / 6.0));
-}
-
 void prepare_geometry(HexBatch& batch, const Solid&, std::span<const Vec3> reference) {
-  LineField derivatives = edge_derivatives(batch, reference);
+  LineField derivatives = edge_derivatives(batch.node, reference);
   batch.centre = geometry(at_centre(derivatives));
   interpolate_lines(derivatives);
   for (int point = 0; point < 8; ++point) batch.point[point] = geometry(at_gauss_point(derivatives, point));
 }
 
-/// J T F f0 f0^T
-Tensor<Pack> active_stress(const ActiveFibre& fibre, const Tensor<Pack>& f, const Pack& j) {
-  const Vec3& f0 = fibre.direction;
-  return tensor<Pack>(
-      [&](int i, int k) { return fibre.tension * f0[k] * j * (f(i, 0) * f0[0] + f(i, 1) * f0[1] + f(i, 2) * f0[2]); });
-}
-
-void lump_volumes(const HexBatch& batch, int lane, std::span<double> volume) {
-  constexpr double near = 0.5 * (1.0 + gauss_abscissa), far = 1.0 - near;
-  // Corners of the parent cube in the order of an element's nodes, as bits of (xi, eta, zeta).
-  constexpr int corner[8] = {0, 1, 3, 2, 4, 5, 7, 6};
-  for (int a = 0; a < 8; ++a) {
-    for (int q = 0; q < 8; ++q) {
-      double shape = 1.0;
-      for (int axis = 0; axis < 3; ++axis) shape *= ((corner[a] ^ q) >> axis) & 1 ? far : near;
-      volume[batch.node[a][lane]] += shape * batch.point[q].weight[lane];
-    }
-  }
-}
+void lump_volumes(const HexBatch& batch, int lane, std::span<double> volume) { lump_hexahedron(batch, lane, volume); }
 
 template <class Law>
 VolumeRatio nodal_forces(const Law& law, const ActiveFibre& fibre, const HexBatch& batch, std::span<const Vec3> x,
                          NodalForces<8>& forces) {
-  LineField derivatives = edge_derivatives(batch, x);
+  LineField derivatives = edge_derivatives(batch.node, x);
   interpolate_lines(derivatives);
   LineField flux{};
   VolumeRatio range;
@@ -193,15 +101,10 @@ inline std::array<std::array<Pack, 3>, 8> shape_gradients(const HexBatch::Point&
   return gradient;
 }
 
-/// d(J T F f0 f0^T) in the direction dF.
-Tensor<Pack> active_tangent(const ActiveFibre& fibre, const Tensor<Pack>& f, const Pack& j, const Tensor<Pack>& df) {
-  return active_stress(fibre, f, dot(cofactor(f), df)) + active_stress(fibre, df, j);
-}
-
 template <class Law>
 void add_tangent(const Law& law, const ActiveFibre& fibre, const HexBatch& batch, std::span<const Vec3> x,
                  Stiffness<8>& stiffness) {
-  LineField derivatives = edge_derivatives(batch, x);
+  LineField derivatives = edge_derivatives(batch.node, x);
   interpolate_lines(derivatives);
   for (int point = 0; point < 8; ++point) {
     const HexBatch::Point& reference = batch.point[point];
@@ -212,7 +115,7 @@ void add_tangent(const Law& law, const ActiveFibre& fibre, const HexBatch& batch
       for (int l = 0; l < 3; ++l) {
         const auto unit = tensor<Pack>([&](int i, int j) { return i == k && j == l ? splat<Pack>(1.0) : Pack{}; });
         moduli[l] = law.tangent(f, unit);
-        if (fibre.tension != 0.0) moduli[l] = moduli[l] + active_tangent(fibre, f, determinant(f), unit);
+        if (fibre.tension != 0.0) moduli[l] = moduli[l] + active_tangent(fibre, f, unit);
         moduli[l] = reference.weight * moduli[l];
       }
       for (int b = 0; b < 8; ++b) {
@@ -230,7 +133,7 @@ void add_tangent(const Law& law, const ActiveFibre& fibre, const HexBatch& batch
 
 template <class Law>
 Pack energy(const Law& law, const HexBatch& batch, std::span<const Vec3> x) {
-  LineField derivatives = edge_derivatives(batch, x);
+  LineField derivatives = edge_derivatives(batch.node, x);
   interpolate_lines(derivatives);
   Pack sum{};
   for (int point = 0; point < 8; ++point) {
@@ -242,7 +145,7 @@ Pack energy(const Law& law, const HexBatch& batch, std::span<const Vec3> x) {
 
 template <class Law>
 VolumeRatio volume_ratio(const Law&, const HexBatch& batch, std::span<const Vec3> x) {
-  LineField derivatives = edge_derivatives(batch, x);
+  LineField derivatives = edge_derivatives(batch.node, x);
   interpolate_lines(derivatives);
   VolumeRatio range;
   for (int point = 0; point < 8; ++point) {
@@ -251,31 +154,16 @@ VolumeRatio volume_ratio(const Law&, const HexBatch& batch, std::span<const Vec3
   return range;
 }
 
-/// For the parent directions I: Q(N_I), N_I = A^T e_I. Exact for a bar, and by the Cauchy-Schwarz inequality never too
-/// low for a parallelepiped under uniform strain.
 template <class Law>
 std::array<Pack, 3> directional_stiffness(const Law& law, const HexBatch& batch, std::span<const Vec3> x) {
-  const Tensor<Pack>& a = batch.centre.inverse_jacobian;
-  const Tensor<Pack> f = at_centre(edge_derivatives(batch, x)) * a;
-  std::array<Pack, 3> stiffness;
-  for (int direction = 0; direction < 3; ++direction) {
-    Tensor<Pack> acoustic;
-    for (int k = 0; k < 3; ++k) {
-      const Tensor<Pack> df = tensor<Pack>([&](int i, int j) { return i == k ? a(direction, j) : Pack{}; });
-      const Tensor<Pack> dp = law.tangent(f, df);
-      for (int j = 0; j < 3; ++j) {
-        acoustic(j, k) = dp(j, 0) * a(direction, 0) + dp(j, 1) * a(direction, 1) + dp(j, 2) * a(direction, 2);
-      }
-    }
-    stiffness[direction] = larger(largest_eigenvalue_bound(acoustic), Pack{});
-  }
-  return stiffness;
+  return hexahedron_stiffness(law, batch.node, batch.centre.inverse_jacobian, x);
 }
 
 }  // namespace
 
 std::unique_ptr<ElementGroup> make_hexahedra(const Solid& solid, const GroupDescription& group, const Mesh& mesh,
                                              const std::vector<int>& elements) {
+  if (solid.element == Hexahedron::assumed_strain) return make_assumed_strain_hexahedra(solid, group, mesh, elements);
   return std::visit(
       [&](const auto& law) { return make_group<HexBatch>(law, solid, group, mesh.nodes, mesh.hexahedra, elements); },
       solid.material);

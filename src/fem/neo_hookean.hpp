@@ -19,6 +19,9 @@ struct NeoHookean {
   NeoHookean(double young, double poisson, double poisson_stabilisation)
       : shear(shear_modulus(young, poisson)), bulk(bulk_modulus(shear, poisson_stabilisation)) {}
 
+  /// Lateral contraction under small uniaxial stress.
+  double poisson() const { return (3.0 * bulk - 2.0 * shear) / (6.0 * bulk + 2.0 * shear); }
+
   /// Psi(F) [J/m^3]
   template <class T>
   T energy(const Tensor<T>& f) const {

@@ -11,9 +11,16 @@
 
 namespace drogue::fem {
 
+/// How the eight nodes of a hexahedron make its gradient.
+enum class Hexahedron {
+  trilinear,      ///< as the field between them; locks in bending and near incompressibility
+  assumed_strain  ///< see assumed_strain_hexahedra.cpp
+};
+
 /// Hexahedra.
 struct Solid {
   Material material;
+  Hexahedron element = Hexahedron::assumed_strain;
 };
 
 /// Quadrilaterals and triangles: stress in their plane alone, no bending.

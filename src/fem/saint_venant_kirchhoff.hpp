@@ -18,6 +18,9 @@ struct SaintVenantKirchhoff {
   SaintVenantKirchhoff(double young, double poisson)
       : shear(shear_modulus(young, poisson)), lambda(bulk_modulus(shear, poisson) - shear * (2.0 / 3.0)) {}
 
+  /// Lateral contraction under small uniaxial stress.
+  double poisson() const { return 0.5 * lambda / (lambda + shear); }
+
   /// Psi(F) [J/m^3]
   template <class T>
   T energy(const Tensor<T>& f) const {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Second-order tensors in three dimensions whose components are numbers or packs of numbers.
+// Vectors and second-order tensors in three dimensions whose components are numbers or packs of numbers.
 #pragma once
 
 namespace drogue::fem {
@@ -28,6 +28,11 @@ inline Tensor<T> operator+(const Tensor<T>& a, const Tensor<T>& b) {
 }
 
 template <class T>
+inline Tensor<T>& operator+=(Tensor<T>& a, const Tensor<T>& b) {
+  return a = a + b;
+}
+
+template <class T>
 inline Tensor<T> operator-(const Tensor<T>& a, const Tensor<T>& b) {
   return tensor<T>([&](int i, int j) { return a(i, j) - b(i, j); });
 }
@@ -46,6 +51,62 @@ inline Tensor<T> operator*(const Tensor<T>& a, const Tensor<T>& b) {
 template <class T>
 inline Tensor<T> transposed(const Tensor<T>& a) {
   return tensor<T>([&](int i, int j) { return a(j, i); });
+}
+
+template <class T>
+struct Vector {
+  T component[3];
+
+  T& operator()(int i) { return component[i]; }
+  const T& operator()(int i) const { return component[i]; }
+};
+
+template <class T>
+inline Vector<T> operator+(const Vector<T>& a, const Vector<T>& b) {
+  return {a(0) + b(0), a(1) + b(1), a(2) + b(2)};
+}
+
+template <class T>
+inline Vector<T>& operator+=(Vector<T>& a, const Vector<T>& b) {
+  return a = a + b;
+}
+
+template <class T>
+inline Vector<T> operator-(const Vector<T>& a, const Vector<T>& b) {
+  return {a(0) - b(0), a(1) - b(1), a(2) - b(2)};
+}
+
+template <class T>
+inline Vector<T> operator*(const T& s, const Vector<T>& a) {
+  return {s * a(0), s * a(1), s * a(2)};
+}
+
+/// a . b
+template <class T>
+inline T dot(const Vector<T>& a, const Vector<T>& b) {
+  return a(0) * b(0) + a(1) * b(1) + a(2) * b(2);
+}
+
+/// a b^T
+template <class T>
+inline Tensor<T> outer(const Vector<T>& a, const Vector<T>& b) {
+  return tensor<T>([&](int i, int j) { return a(i) * b(j); });
+}
+
+template <class T>
+inline Vector<T> operator*(const Tensor<T>& a, const Vector<T>& b) {
+  const auto row = [&](int i) { return a(i, 0) * b(0) + a(i, 1) * b(1) + a(i, 2) * b(2); };
+  return {row(0), row(1), row(2)};
+}
+
+template <class T>
+inline Vector<T> column(const Tensor<T>& a, int j) {
+  return {a(0, j), a(1, j), a(2, j)};
+}
+
+template <class T>
+inline Vector<T> row(const Tensor<T>& a, int i) {
+  return {a(i, 0), a(i, 1), a(i, 2)};
 }
 
 /// a^T a, which is symmetric: six products.
@@ -87,6 +148,14 @@ template <class T>
 inline T determinant(const Tensor<T>& a) {
   const Tensor<T> c = cofactor(a);
   return a(0, 0) * c(0, 0) + a(0, 1) * c(0, 1) + a(0, 2) * c(0, 2);
+}
+
+/// a^{-1}
+template <class T>
+inline Tensor<T> inverted(const Tensor<T>& a) {
+  const Tensor<T> c = cofactor(a);
+  const T scale = 1.0 / (a(0, 0) * c(0, 0) + a(0, 1) * c(0, 1) + a(0, 2) * c(0, 2));
+  return tensor<T>([&](int i, int j) { return scale * c(j, i); });
 }
 
 }  // namespace drogue::fem

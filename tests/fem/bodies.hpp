@@ -5,6 +5,8 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <random>
+#include <string>
+#include <utility>
 #include <vector>
 
 #include "fem/mesh_shapes.hpp"
@@ -29,6 +31,10 @@ inline Structure solid(Mesh mesh, const Material& material, const SolidOptions& 
   return Structure(one_solid(std::move(mesh), material, options.density, std::move(holds),
                              {options.dissipation, options.safety, options.volume_ratio}));
 }
+
+/// The kinds of hexahedra, with their names.
+inline const std::vector<std::pair<std::string, Hexahedron>> hexahedra{{"trilinear", Hexahedron::trilinear},
+                                                                       {"assumed strain", Hexahedron::assumed_strain}};
 
 inline std::vector<Vec3> random_vectors(std::size_t count, double amplitude, unsigned seed) {
   std::mt19937 generator(seed);

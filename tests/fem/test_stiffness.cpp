@@ -50,8 +50,10 @@ std::vector<Sample> samples() {
     const auto add = [&](const std::string& name, const Mesh& mesh, const auto& kind) {
       all.push_back({name + suffix, mesh, {"", 1.0, kind, active}});
     };
-    add("neo-Hookean hexahedra", solid, Solid{neo_hookean});
-    add("Saint Venant-Kirchhoff hexahedra", solid, Solid{saint_venant_kirchhoff});
+    for (const auto& [name, element] : hexahedra) {
+      add("neo-Hookean hexahedra, " + name, solid, Solid{neo_hookean, element});
+      add("Saint Venant-Kirchhoff hexahedra, " + name, solid, Solid{saint_venant_kirchhoff, element});
+    }
     for (const auto& [name, mesh] : {std::pair{"quadrilaterals", sheet()}, std::pair{"triangles", triangles()}}) {
       const std::string of = name;
       add("neo-Hookean " + of, mesh, Membrane{plane_neo_hookean, 0.1});

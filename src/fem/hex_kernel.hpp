@@ -1,0 +1,135 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// What the kernels of the kinds of hexahedra share.
+#pragma once
+
+#include <algorithm>
+#include <span>
+
+#include "fem/element_batch.hpp"
+#include "fem/hex_topology.hpp"
+#include "fem/tensor.hpp"
+
+namespace drogue::fem {
+
+inline constexpr const char* hexahedron_expected =
+    "the nodes of a convex hexahedron, bottom face counter-clockwise, then top face";
+
+/// A vector field on the twelve edges or, interpolated, on the lines through the Gauss points, numbered like the edges.
+struct LineField {
+  Pack at[3][4][3];  ///< [parent direction][line][axis]
+};
+
+/// The line along `direction` through a Gauss point.
+constexpr int line_through(int direction, int point) {
+  const int x = point & 1, y = (point >> 1) & 1, z = point >> 2;
+  if (direction == 0) return y + 2 * z;
+  return direction == 1 ? x + 2 * z : x + 2 * y;
+}
+
+/// Linear interpolation between two places at -1 and 1 to the two Gauss points; it is its own transpose.
+inline void interpolate(Pack& first, Pack& last) {
+  const Pack mean = 0.5 * (first + last);
+  const Pack slope = (0.5 * gauss_abscissa) * (last - first);
+  first = mean - slope;
+  last = mean + slope;
+}
+
+inline void interpolate_lines(LineField& field) {
+  for (auto& direction : field.at) {
+    for (int axis = 0; axis < 3; ++axis) {
+      interpolate(direction[0][axis], direction[1][axis]);
+      interpolate(direction[2][axis], direction[3][axis]);
+      interpolate(direction[0][axis], direction[2][axis]);
+      interpolate(direction[1][axis], direction[3][axis]);
+    }
+  }
+}
+
+/// Derivatives of the positions along the edges.
+inline LineField edge_derivatives(const BatchNodes<8>& node, std::span<const Vec3> x) {
+  Pack position[8][3];
+  for (int a = 0; a < 8; ++a) {
+    for (int axis = 0; axis < 3; ++axis) {
+      position[a][axis] = gather(node[a], x, axis);
+    }
+  }
+  LineField field;
+  for (int direction = 0; direction < 3; ++direction) {
+    for (int line = 0; line < 4; ++line) {
+      const auto [first, last] = hex_edge[direction][line];
+      for (int axis = 0; axis < 3; ++axis) {
+        field.at[direction][line][axis] = 0.5 * (position[last][axis] - position[first][axis]);
+      }
+    }
+  }
+  return field;
+}
+
+inline Tensor<Pack> at_gauss_point(const LineField& field, int point) {
+  return tensor<Pack>(
+      [&](int axis, int direction) { return field.at[direction][line_through(direction, point)][axis]; });
+}
+
+inline Tensor<Pack> at_centre(const LineField& edges) {
+  return tensor<Pack>([&](int axis, int direction) {
+    const auto& lines = edges.at[direction];
+    return 0.25 * (lines[0][axis] + lines[1][axis] + lines[2][axis] + lines[3][axis]);
+  });
+}
+
+/// Upper bound of the largest eigenvalue of a symmetric tensor: mean + 2 sqrt(p), p = |q - mean|^2 / 6. Exact if the
+/// two others are equal, as those of the acoustic tensor of an isotropic solid are; at most 4/3 of it for a positive
+/// one.
+inline Pack largest_eigenvalue_bound(const Tensor<Pack>& q) {
+  const Pack mean = (1.0 / 3.0) * trace(q);
+  const Pack deviation = larger(dot(q, q) - 3.0 * mean * mean, Pack{});
+  return mean + 2.0 * square_root(deviation * (1.0 / 6.0));
+}
+
+/// J T F f0 f0^T
+inline Tensor<Pack> active_stress(const ActiveFibre& fibre, const Tensor<Pack>& f, const Pack& j) {
+  const Vec3& f0 = fibre.direction;
+  return tensor<Pack>(
+      [&](int i, int k) { return fibre.tension * f0[k] * j * (f(i, 0) * f0[0] + f(i, 1) * f0[1] + f(i, 2) * f0[2]); });
+}
+
+/// Its derivative in the direction dF.
+inline Tensor<Pack> active_tangent(const ActiveFibre& fibre, const Tensor<Pack>& f, const Tensor<Pack>& df) {
+  return active_stress(fibre, f, dot(cofactor(f), df)) + active_stress(fibre, df, determinant(f));
+}
+
+/// Adds the reference volume of a lane's hexahedron to its nodes.
+template <class Batch>
+void lump_hexahedron(const Batch& batch, int lane, std::span<double> volume) {
+  constexpr double near = 0.5 * (1.0 + gauss_abscissa), far = 1.0 - near;
+  for (int a = 0; a < 8; ++a) {
+    for (int q = 0; q < 8; ++q) {
+      double shape = 1.0;
+      for (int axis = 0; axis < 3; ++axis) shape *= ((corner_of_node[a] ^ q) >> axis) & 1 ? far : near;
+      volume[batch.node[a][lane]] += shape * batch.point[q].weight[lane];
+    }
+  }
+}
+
+/// For the parent directions I: Q(N_I), N_I = A^T e_I with `a` = A at the centre. Exact for a bar, and by the
+/// Cauchy-Schwarz inequality never too low for a parallelepiped under uniform strain.
+template <class Law>
+std::array<Pack, 3> hexahedron_stiffness(const Law& law, const BatchNodes<8>& node, const Tensor<Pack>& a,
+                                         std::span<const Vec3> x) {
+  const Tensor<Pack> f = at_centre(edge_derivatives(node, x)) * a;
+  std::array<Pack, 3> stiffness;
+  for (int direction = 0; direction < 3; ++direction) {
+    Tensor<Pack> acoustic;
+    for (int k = 0; k < 3; ++k) {
+      const Tensor<Pack> df = tensor<Pack>([&](int i, int j) { return i == k ? a(direction, j) : Pack{}; });
+      const Tensor<Pack> dp = law.tangent(f, df);
+      for (int j = 0; j < 3; ++j) {
+        acoustic(j, k) = dp(j, 0) * a(direction, 0) + dp(j, 1) * a(direction, 1) + dp(j, 2) * a(direction, 2);
+      }
+    }
+    stiffness[direction] = larger(largest_eigenvalue_bound(acoustic), Pack{});
+  }
+  return stiffness;
+}
+
+}  // namespace drogue::fem
