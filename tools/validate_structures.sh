@@ -22,9 +22,10 @@ cable() {
 }
 beam() {
   local n
-  for n in 120 240; do
+  for n in 10 20 40; do
     echo "beam-$1-$n|cantilever_large_deflection|alpha = $1, $n elements|--set body.beam.mesh.elements=[$n,1,2] --set body.beam.force.0.force=[0,0,$1] --set reference.deflection_over_length.value=$2 --set reference.shortening_over_length.value=$3"
   done
+  echo "beam-$1-20-trilinear|cantilever_large_deflection|alpha = $1, 20 trilinear elements|--set body.beam.element=\"trilinear\" --set body.beam.force.0.force=[0,0,$1] --set reference.deflection_over_length.value=$2 --set reference.shortening_over_length.value=$3"
 }
 
 # name | case | what it changes | arguments of ./drogue run
@@ -40,7 +41,13 @@ matrix() {
   echo "pendulum|cable_pendulum|four cables|"
   beam 1 0.301721 0.056433
   beam 4 0.669964 0.328941
+  for n in 8 16 32; do echo "cook-$n-trilinear|cook_membrane|$n x $n trilinear|--set body.panel.mesh.elements=[$n,$n,1] --set body.panel.element=\"trilinear\""; done
   for n in 8 16 32; do echo "cook-$n|cook_membrane|$n x $n|--set body.panel.mesh.elements=[$n,$n,1]"; done
+  for n in 8 16; do
+    for kind in assumed_strain trilinear; do
+      echo "cook-incompressible-$n-$kind|cook_membrane|nu = 0.499, $n x $n $kind (reference 32 x 32)|--set body.panel.mesh.elements=[$n,$n,1] --set body.panel.element=\"$kind\" --set body.panel.material.poisson=0.499 --set reference.tip_displacement.value=0.02749"
+    done
+  done
   for n in 8 16 32; do echo "airbag-$n|airbag_square|$n x $n, tension field|--set body.airbag.mesh.elements=[$n,$n]"; done
   echo "airbag-16-compressed|airbag_square|16 x 16, bears compression|--set body.airbag.wrinkling=false"
 }

@@ -120,8 +120,8 @@ constexpr const char* active_doc = "active stress, of elements that pull by them
 
 fem::Hexahedron read_element(Section& section) {
   return section.choose<fem::Hexahedron>(
-      "element", {{"trilinear", fem::Hexahedron::trilinear}, {"assumed_strain", fem::Hexahedron::assumed_strain}},
-      {.doc = "of a solid: trilinear, which is too stiff in bending, or assumed_strain", .fallback = "trilinear"});
+      "element", {{"assumed_strain", fem::Hexahedron::assumed_strain}, {"trilinear", fem::Hexahedron::trilinear}},
+      {.doc = "of a solid: assumed_strain, or trilinear, which locks in bending", .fallback = "assumed_strain"});
 }
 
 /// A membrane has a thickness, a cable the law of one; the rest is solid.
