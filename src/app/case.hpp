@@ -176,7 +176,7 @@ struct Output {
 struct StructureSolver {
   bool at_rest = false;  ///< every step ends in equilibrium
   double step = 0.0;     ///< [s]
-  fem::RelaxationOptions relaxation;
+  fem::EquilibriumOptions equilibrium;
 };
 
 struct ResultOptions {

@@ -198,24 +198,30 @@ void read_grid(Section grid, Case& c) {
 
 StructureSolver read_structure_solver(Section section, double end) {
   StructureSolver solver;
-  solver.at_rest = section.choose<bool>(
-      "solver", {{"explicit", false}, {"relaxation", true}},
-      {.doc =
-           "motion, explicit with automatic sub-steps, or equilibrium at the end of every step, by dynamic relaxation",
-       .fallback = "explicit"});
+  const Choices<std::optional<fem::Equilibrium>> solvers{{"motion", std::nullopt},
+                                                         {"equilibrium", fem::Equilibrium::cheaper},
+                                                         {"relaxation", fem::Equilibrium::relaxation},
+                                                         {"newton", fem::Equilibrium::newton}};
+  const auto method = section.choose(
+      "solver", solvers,
+      {.doc = "motion, or equilibrium at the end of every step: by dynamic relaxation, Newton's method, or what is "
+              "cheaper by estimate",
+       .fallback = "motion"});
+  solver.at_rest = method.has_value();
+  solver.equilibrium.method = method.value_or(fem::Equilibrium::cheaper);
   solver.step = section.get<double>("step", {.unit = "s",
                                              .doc = "between states that can be written; by default a hundredth of "
                                                     "time.end, or all of it to an equilibrium",
                                              .derived = solver.at_rest ? end : end / 100.0,
                                              .range = positive});
   if (solver.at_rest || section.describing()) {
-    solver.relaxation.tolerance =
+    solver.equilibrium.tolerance =
         section.get<double>("tolerance", {.doc = "forces left at rest, over loads and reactions",
-                                          .fallback = solver.relaxation.tolerance,
+                                          .fallback = solver.equilibrium.tolerance,
                                           .range = positive});
-    solver.relaxation.most_iterations = section.get<int>(
+    solver.equilibrium.most_iterations = section.get<int>(
         "most_iterations",
-        {.doc = "before it is given up", .fallback = solver.relaxation.most_iterations, .range = {.min = 1}});
+        {.doc = "before it is given up", .fallback = solver.equilibrium.most_iterations, .range = {.min = 1}});
   }
   return solver;
 }

@@ -26,6 +26,10 @@ class CoupledBody : public fluid::FineStepHook {
   virtual void write(const std::filesystem::path& file, double time) const = 0;
   /// A few lines about what follows from its description.
   virtual std::string report(const Case& c) const = 0;
+  /// How its structure moves or comes to rest, as the case says it; empty without one.
+  virtual std::string solver() const { return {}; }
+  /// What a user should know of what it did so far; empty if all is well.
+  virtual std::string warning() const { return {}; }
   virtual void transfer_state(Archive& archive) = 0;
   /// Wall time spent in its structure so far [s].
   virtual double structure_seconds() const { return 0.0; }

@@ -74,13 +74,18 @@ int point_nearest(const fem::Structure& structure, const Vec3& place) {
   return nearest;
 }
 
+/// Between two advances of a structure [s].
+double structure_step(const Case& c) {
+  return c.has_fluid() ? time_step(c, level_of(c.domain.coarsest, c.finest)) : c.structure.step;
+}
+
 double sum(std::span<const double> values) { return std::accumulate(values.begin(), values.end(), 0.0); }
 
 }  // namespace
 
 CoupledElasticBody::CoupledElasticBody(const Case& c, const Body& body, const fem::Mesh& mesh,
                                        const amr::Forest* forest)
-    : CoupledBody(body), solver_(c.structure), structure_(make_structure(c, body, mesh)) {
+    : CoupledBody(body), case_(c), structure_(make_structure(c, body, mesh)) {
   if (forest) coupling_.emplace(structure_, *forest, elastic(body).coupling);
   const Box box = bounding_box(mesh);
   centre_point_ = point_nearest(structure_, 0.5 * (box.lower + box.upper));
@@ -90,11 +95,23 @@ CoupledElasticBody::CoupledElasticBody(const Case& c, const Body& body, const fe
 
 void CoupledElasticBody::step_alone(double time, double dt) {
   const Timed timed(time_alone_);
-  if (solver_.at_rest) {
-    structure_.relax(time + dt, solver_.relaxation);
-  } else {
+  if (!case_.structure.at_rest) {
     structure_.advance(dt, time);
+    return;
   }
+  at_key(case_, "body." + description.name,
+         [&] { structure_.find_equilibrium(time + dt, case_.structure.equilibrium); });
+  if (warning_.empty()) warning_ = structure_.free_motion();
+}
+
+std::string CoupledElasticBody::solver() const {
+  if (case_.structure.at_rest) {
+    const fem::Equilibrium asked = case_.structure.equilibrium.method;
+    const fem::Equilibrium method = asked == fem::Equilibrium::cheaper ? structure_.cheaper_equilibrium() : asked;
+    return method == fem::Equilibrium::newton ? "newton" : "relaxation";
+  }
+  const bool implicit = structure_.integrator_for(structure_step(case_)) == fem::Integrator::implicit_scheme;
+  return implicit ? "implicit" : "explicit";
 }
 
 BodyRow CoupledElasticBody::measure(const fluid::FluidSolver* fluid) {
@@ -137,15 +154,15 @@ double CoupledElasticBody::structure_seconds() const {
 std::string CoupledElasticBody::report(const Case& c) const {
   const fem::Structure& s = structure_;
   const double stable = s.stable_step();
-  const double step = c.has_fluid() ? time_step(c, level_of(c.domain.coarsest, c.finest)) : c.structure.step;
+  const double step = structure_step(c);
   std::string text = fmt::format("body    {}: {} nodes, {} elements, mass {:.4g} kg", description.name,
                                  s.mesh().nodes.size(), s.elements(), sum(s.own_mass()));
   if (coupling_) {
     text += fmt::format("; {} points on the fluid, {:.4g} kg with the fluid they drag", s.inertia().point.size(),
                         sum(s.inertia().mass));
   }
-  text += fmt::format("\n        stable step {:.3g} s, {:.0f} sub-steps in a {} of {:.3g} s\n", stable,
-                      std::ceil(step / stable), coupling_ ? "fine step" : "step", step);
+  text += fmt::format("\n        {}; stable explicit step {:.3g} s, {:.0f} sub-steps in a {} of {:.3g} s\n", solver(),
+                      stable, std::ceil(step / stable), coupling_ ? "fine step" : "step", step);
   for (const auto& [nodes, hold] : elastic(description).holds) {
     const std::vector<int> held = find_nodes(c, hold_key(description), nodes, s.mesh());
     double volume = 0.0;

@@ -14,7 +14,8 @@ namespace drogue::app {
 
 class CoupledElasticBody : public CoupledBody {
  public:
-  /// `body` and `forest`, null without a fluid, outlive it. Throws InputError for a mesh or values that cannot be run.
+  /// `c`, `body` and `forest`, null without a fluid, outlive it. Throws InputError for a mesh or values that cannot be
+  /// run.
   CoupledElasticBody(const Case& c, const Body& body, const fem::Mesh& mesh, const amr::Forest* forest);
 
   void on_fine_step(fluid::FineStep& step) override { coupling_->on_fine_step(step); }
@@ -24,15 +25,18 @@ class CoupledElasticBody : public CoupledBody {
   std::string report(const Case& c) const override;
   void transfer_state(Archive& archive) override;
   double structure_seconds() const override;
+  std::string solver() const override;
+  std::string warning() const override { return warning_; }
 
  private:
-  StructureSolver solver_;  // without a fluid
+  const Case& case_;
   fem::Structure structure_;
   std::optional<fsi::Coupling> coupling_;
   int centre_point_;       // of the inertia: nearest the middle of the reference mesh
   Vec3 centre_reference_;  // where it was [m]
   std::vector<int> probed_nodes_;
   Stopwatch time_alone_;
+  std::string warning_;
 };
 
 }  // namespace drogue::app

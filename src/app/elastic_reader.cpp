@@ -268,7 +268,22 @@ void read_loads(Section& section, ElasticBody& body) {
 }
 
 fem::StructureOptions read_structure(Section& body) {
+  const Choices<fem::Integrator> integrators{{"explicit", fem::Integrator::explicit_scheme},
+                                             {"implicit", fem::Integrator::implicit_scheme},
+                                             {"auto", fem::Integrator::cheaper}};
   fem::StructureOptions options;
+  options.integrator =
+      body.choose("integrator", integrators,
+                  {.doc = "of its motion: explicit with automatic sub-steps, implicit (generalised-alpha) "
+                          "with one step of the fluid or of structure.step, or what is cheaper by estimate",
+                   .fallback = "explicit"});
+  if (body.describing() || options.integrator != fem::Integrator::explicit_scheme) {
+    options.spectral_radius =
+        body.get<double>("spectral_radius", {.doc = "of the implicit scheme, for what a step does not resolve: 0 damps "
+                                                    "it at once, 1 never",
+                                             .fallback = options.spectral_radius,
+                                             .range = {.min = 0.0, .max = 1.0}});
+  }
   options.dissipation = body.get<double>("dissipation", {.doc = "numerical, of what the sub-step barely resolves",
                                                          .fallback = options.dissipation,
                                                          .range = {.min = 0.0, .max = 0.49}});
@@ -309,6 +324,9 @@ Body read_elastic(Section& section, const Case& c) {
                [&](Section& probe) { body.probes.push_back(read_probe(probe)); });
   const double reference_area = in_flow ? read_reference_area(section, area_of(body.mesh)) : 0.0;
   if (in_flow) body.coupling = read_coupling(section.section("coupling", coupling_doc), c, name);
+  if (body.coupling.scheme == fsi::Scheme::peskin && body.structure.integrator != fem::Integrator::explicit_scheme) {
+    section.fail("integrator", "has no meaning with coupling.scheme = \"peskin\", which moves nodes with the fluid");
+  }
   return {name, reference_area, std::move(body), in_flow};
 }
 

@@ -34,6 +34,9 @@ std::int64_t peak_rss_bytes() {
 
 void announce(const Case& c, const Simulation& simulation, const fs::path& folder, Log& log) {
   log.info("{}", c.title.empty() ? c.name : c.title);
+  for (const auto& body : simulation.bodies()) {
+    if (!body->solver().empty()) log.info("structure of {}: {}", body->description.name, body->solver());
+  }
   if (!simulation.fluid()) {
     log.info("structures alone, steps of {:.4g} s, {} threads; writing to {}", simulation.time_step(),
              omp_get_max_threads(), folder.string());
@@ -105,6 +108,11 @@ Summary summarise_run(const Case& c, const Simulation& simulation, const Recorde
                   {"structure", structure / wall_seconds},
                   {"io", output_seconds / wall_seconds},
                   {"other", (wall_seconds - stepping - output_seconds) / wall_seconds}};
+  for (const auto& body : simulation.bodies()) {
+    const std::string& name = body->description.name;
+    if (!body->solver().empty()) s.structure.emplace_back(name, body->solver());
+    if (!body->warning().empty()) s.warnings.push_back(fmt::format("body {}: {}", name, body->warning()));
+  }
   s.results = summarise(recorder.trace(), c);
   s.references = compare(s.results, c.references);
   return s;
@@ -162,6 +170,7 @@ int run_case(const RunOptions& options) {
   summary.message = message;
   write_summary(summary, folder / "summary.json");
   print_summary(summary, log);
+  for (const std::string& warning : summary.warnings) log.warn("{}", warning);
   if (ending == Ending::interrupted) log.warn("interrupted at {:.6g} s{}", simulation.time(), checkpoints.hint());
   if (failure) std::rethrow_exception(failure);
   return ending == Ending::interrupted ? 130 : 0;

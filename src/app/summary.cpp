@@ -65,6 +65,9 @@ std::string to_json(const Summary& s) {
   json["cells_per_level"] = s.cells_per_level;
   json["time_share"] = Json::object();
   for (const auto& [part, share] : s.time_share) json["time_share"][part] = share;
+  json["structure"] = Json::object();
+  for (const auto& [body, solver] : s.structure) json["structure"][body] = solver;
+  if (!s.warnings.empty()) json["warnings"] = s.warnings;
   json["results"] = Json::object();
   for (const Result& result : s.results) json["results"][result.name] = number(result.value);
   json["references"] = Json::object();

@@ -27,7 +27,9 @@ struct Summary {
   double mlups = 0.0;  ///< million cell updates a second, while stepping
   std::int64_t peak_rss_bytes = 0;
   std::vector<std::int64_t> cells_per_level;
-  std::vector<std::pair<std::string, double>> time_share;  ///< parts of the wall time, which add up to 1
+  std::vector<std::pair<std::string, double>> time_share;      ///< parts of the wall time, which add up to 1
+  std::vector<std::pair<std::string, std::string>> structure;  ///< of each body: how it moved or came to rest
+  std::vector<std::string> warnings;
   std::vector<Result> results;
   std::vector<Comparison> references;
 };

@@ -18,8 +18,8 @@ ElementGroup::ElementGroup(const GroupDescription& description, std::string fami
       lightness_(count(), {1.0, 1.0, 1.0}),
       frequency_bound_(count()) {}
 
-void ElementGroup::set_time(double time) {
-  fibre_ = {region_.active.tension(Vec3::Zero(), time), region_.active.direction};
+void ElementGroup::set_time(double time, double share) {
+  fibre_ = {share * region_.active.tension(Vec3::Zero(), time), region_.active.direction};
 }
 
 std::string ElementGroup::name_of(int element) const { return fmt::format("{} {}", family_, number_[element]); }

@@ -55,8 +55,8 @@ class ElementGroup : public ForceGroup {
   /// Such as "hexahedron 12", with its number in the mesh.
   std::string name_of(int element) const;
 
-  /// The active stress of `time` [s] acts from now on.
-  void set_time(double time);
+  /// A share of the active stress of `time` [s] acts from now on.
+  void set_time(double time, double share);
   bool compute_forces(int batch, std::span<const Vec3> x) override;
 
   /// Density times squared frequency of a batch's elements [Pa/m^2] from above, as deformed, each direction of

@@ -142,10 +142,10 @@ bool Elements::vary() const {
          std::ranges::any_of(groups_, [](const auto& g) { return g->region().active.tension.depends_on_time(); });
 }
 
-void Elements::set_time(double time) {
-  for (const auto& group : groups_) group->set_time(time);
+void Elements::set_time(double time, double share) {
+  for (const auto& group : groups_) group->set_time(time, share);
   for (Faces& faces : faces_) {
-    for (const auto& group : faces.groups) group->set_pressure(faces.pressure(Vec3::Zero(), time));
+    for (const auto& group : faces.groups) group->set_pressure(share * faces.pressure(Vec3::Zero(), time));
   }
 }
 

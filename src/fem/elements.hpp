@@ -34,8 +34,8 @@ class Elements {
   const std::vector<double>& nodal_volume() const { return nodal_volume_; }  ///< reference volume lumped [m^3]
   const std::vector<double>& nodal_mass() const { return nodal_mass_; }      ///< own mass lumped [kg]
 
-  /// The pressures and active stresses of `time` [s] act from now on.
-  void set_time(double time);
+  /// A share of the pressures and active stresses of `time` [s] acts from now on.
+  void set_time(double time, double share = 1.0);
   bool vary() const;  ///< whether they change with time
   /// Forces of all elements and faces at positions `x`, for nodal_force() to sum. Work is shared.
   void compute_forces(std::span<const Vec3> x);

@@ -16,7 +16,7 @@ namespace drogue::fem {
 namespace {
 
 StructureOptions checked(const StructureOptions& options) {
-  const auto& [dissipation, safety, ratio] = options;
+  const auto& [dissipation, safety, ratio, integrator, spectral_radius] = options;
   // From 0.5 on a stiff tether would be unstable.
   if (!(dissipation >= 0.0 && dissipation < 0.5)) {
     throw InputError(
@@ -29,6 +29,10 @@ StructureOptions checked(const StructureOptions& options) {
   if (!(ratio[0] > 0.0 && ratio[0] < 1.0 && ratio[1] > 1.0)) {
     throw InputError(fmt::format("the bounds of the volume ratio are {} and {}; expected 0 < lower < 1 < upper",
                                  ratio[0], ratio[1]));
+  }
+  if (!(spectral_radius >= 0.0 && spectral_radius <= 1.0)) {
+    throw InputError(
+        fmt::format("the spectral radius of the structure's implicit scheme is {}; expected 0 to 1", spectral_radius));
   }
   return options;
 }
@@ -161,8 +165,28 @@ void Structure::Data::assign_points(Inertia new_inertia) {
   inertia = std::move(new_inertia);
   points = std::move(new_points);
   hold_impulse.assign(points.size(), Vec3::Zero());
+  assemble_mass();
   compare_masses();
   estimate_largest_frequency();
+  reference_frequency = largest_frequency;
+}
+
+/// The mean of a pair has the mass M and the difference mu, so that their kinetic energy is half of
+/// M |s_a v_a + s_b v_b|^2 + mu |v_a - v_b|^2.
+void Structure::Data::assemble_mass() {
+  mass_matrix = {std::vector<Vec3>(mesh.nodes.size()), {}};
+  nodal_weight.assign(mesh.nodes.size(), Vec3::Zero());
+  for (const Point& p : points) {
+    const double mean = p.mean.mass, difference = p.is_pair() ? p.difference.mass : 0.0;
+    mass_matrix.diagonal[p.a].setConstant(mean * p.share_a * p.share_a + difference);
+    nodal_weight[p.a] = p.share_a * p.weight;
+    if (!p.is_pair()) continue;
+    mass_matrix.diagonal[p.b].setConstant(mean * p.share_b * p.share_b + difference);
+    mass_matrix.pairs.push_back({p.a, p.b, mean * p.share_a * p.share_b - difference});
+    nodal_weight[p.b] = p.share_b * p.weight;
+  }
+  solver.reset();
+  acceleration.clear();
 }
 
 // The mass that a node has in use is shared among its elements in proportion to their own. A hexahedron strains along
@@ -227,6 +251,7 @@ void Structure::set_state(std::span<const Vec3> position, std::span<const Vec3> 
   assert(position.size() == data_->x.size() && velocity.size() == data_->v.size());
   data_->x.assign(position.begin(), position.end());
   data_->v.assign(velocity.begin(), velocity.end());
+  data_->acceleration.clear();
   data_->estimate_largest_frequency();
 }
 
@@ -262,7 +287,7 @@ bool Structure::is_held_rigidly(int node) const {
   return std::ranges::all_of(data_->hold_of_node[node], [](const Hold* hold) { return hold && hold->rigid; });
 }
 
-double Structure::stable_step() const { return data_->stable_step(); }
+double Structure::stable_step() const { return data_->stable_step(data_->largest_frequency); }
 
 Vec3 Structure::reaction() const { return data_->reaction; }
 
@@ -310,6 +335,11 @@ void Structure::transfer_state(Archive& archive) {
   if (reference != data_->mesh.nodes) throw InputError("the mesh of a structure has changed since its state was saved");
   archive.transfer("position", data_->x);
   archive.transfer("velocity", data_->v);
+  int has_acceleration = !data_->acceleration.empty();
+  archive.transfer("has_acceleration", has_acceleration);
+  if (!has_acceleration) return;
+  data_->acceleration.resize(data_->x.size());
+  archive.transfer("acceleration", data_->acceleration);
 }
 
 double Structure::mean_thickness_stretch() const {

@@ -28,17 +28,24 @@ struct Inertia {
   std::vector<double> heavy_mass;         ///< [kg] on which gravity acts
 };
 
+enum class Integrator { explicit_scheme, implicit_scheme, cheaper };
+
 struct StructureOptions {
   double dissipation =
       0.2;              ///< phi - 1 of the Tchamwa-Wielgosz scheme, in [0, 0.5): damps what a sub-step barely resolves
   double safety = 0.9;  ///< share of the stable step that is used
   std::array<double, 2> volume_ratio{0.05, 20.0};  ///< bounds of J at the Gauss points; beyond them Diverged is thrown
+  Integrator integrator = Integrator::explicit_scheme;
+  double spectral_radius = 0.8;  ///< of the implicit scheme for what it does not resolve, from 0 (all damped) to 1
 };
 
-/// Of Structure::relax().
-struct RelaxationOptions {
-  double tolerance = 1e-6;  ///< largest norm of the forces left, over that of the loads and reactions
-  int most_iterations = 200'000;
+enum class Equilibrium { cheaper, relaxation, newton };
+
+/// Of Structure::find_equilibrium().
+struct EquilibriumOptions {
+  Equilibrium method = Equilibrium::cheaper;
+  double tolerance = 1e-6;        ///< largest norm of the forces left, over that of the loads and reactions
+  int most_iterations = 200'000;  ///< of relaxation
 };
 
 /// What a structure is made from.
@@ -77,13 +84,21 @@ class Structure {
   Vec3 mean_position(int point) const;
   Vec3 mean_velocity(int point) const;
 
-  /// Integrates over `dt` [s] in sub-steps; throws Diverged (naming element, J, place) for a volume ratio out of
-  /// bounds.
+  /// Integrates over `dt` [s] from `time` [s] on, in sub-steps; throws Diverged (naming element, J, place) for a volume
+  /// ratio out of bounds, or if forces do not balance.
   void advance(double dt, double time);
+  /// Which scheme advance() uses for steps of `dt` [s]: that of the options, or what is cheaper by an estimate from
+  /// counts, of the body as it was when its inertia was set.
+  Integrator integrator_for(double dt) const;
   /// Finds the equilibrium under the loads of `time` [s], from where the structure is, and leaves it there at rest.
   /// Points, their masses and damping do not matter. Returns the number of iterations; throws Diverged if it is not
-  /// found, or an element is torn.
-  int relax(double time, const RelaxationOptions& options);
+  /// found, naming what moves unheld, or if an element is torn.
+  int find_equilibrium(double time, const EquilibriumOptions& options);
+  /// A motion that nothing resists at the equilibrium that Newton's method found last, in words; empty if there is
+  /// none.
+  const std::string& free_motion() const;
+  /// What is cheaper by an estimate from counts.
+  Equilibrium cheaper_equilibrium() const;
   int substeps() const;              ///< taken by the last advance
   double stable_step() const;        ///< [s] longest sub-step of the scheme, safety included, for largest_frequency()
   double largest_frequency() const;  ///< [rad/s] upper estimate from the elements as deformed, behind the sub-step

@@ -3,9 +3,13 @@
 //   x_m = s_a x_a + s_b x_b  and the difference  d = x_a - x_b,  s_a = m_a / (m_a + m_b), s_b = 1 - s_a.
 #pragma once
 
+#include <memory>
+#include <span>
+#include <string>
 #include <vector>
 
 #include "fem/elements.hpp"
+#include "fem/newton.hpp"
 #include "fem/structure.hpp"
 
 namespace drogue::fem {
@@ -56,18 +60,27 @@ struct Structure::Data {
   std::vector<bool> hold_moves;         ///< of each hold
   bool loads_vary = false;              ///< with time
   std::vector<Vec3> hold_displacement;  ///< of each hold now [m]
+  double load_share = 1.0;              ///< of the loads that acts now
+  std::unique_ptr<Newton> solver;       ///< once it is needed
+  std::string free_motion;              ///< at the last equilibrium, in words; empty if there is none
+  double reference_frequency = 0.0;     ///< the largest when the inertia was set [rad/s]
+  std::vector<Vec3> acceleration;       ///< of each node, of the implicit scheme; empty where unknown [m/s^2]
+  NodalMatrix mass_matrix;              ///< of the points, see Inertia [kg]
+  std::vector<Vec3> nodal_weight;       ///< of each node [N]
 
   double largest_frequency = 0.0;
   int substeps = 0;
   Vec3 reaction = Vec3::Zero();
 
   void assign_points(Inertia inertia);
+  void assemble_mass();
   void compare_masses();
   void estimate_largest_frequency();
-  double stable_step() const;
-  int substeps_for(double dt) const;
+  double stable_step(double frequency) const;
+  int substeps_for(double dt, double frequency) const;
   void stop_rigidly_held();
-  void set_time(double time);
+  /// A share of the loads of `time` [s] acts from now on.
+  void set_time(double time, double share = 1.0);
   /// Of elements, pressure and dead loads, without the weight [N].
   Vec3 nodal_force(int node) const {
     return dead_load.empty() ? elements.nodal_force(node) : Vec3(elements.nodal_force(node) + dead_load[node]);
@@ -75,14 +88,36 @@ struct Structure::Data {
   double displacement_of(const Hold& hold, int axis) const {
     return hold_displacement[&hold - loads.holds.data()][axis];
   }
+  void advance_explicitly(double dt, double time);
   void move(std::size_t point, double dt);
-  struct Balance {
-    std::vector<Vec3> left;  ///< of each node [N]
-    Vec3 reaction;           ///< of all holds on the body [N]
-    double scale;            ///< norm of all loads and reactions [N]
-  };
-  Balance balance();
-  void move_rigidly_held();
+  void advance_implicitly(double dt, double time);
+  struct ImplicitStep;
+  bool step_implicitly(double dt, double time, Vec3& impulse);
+  void find_acceleration();
+  /// Does `action(node, axis)` for each coordinate that is held rigidly.
+  template <class Action>
+  void for_each_rigid(const Action& action) const {
+    for (std::size_t node = 0; node < x.size(); ++node) {
+      for (int axis = 0; axis < 3; ++axis) {
+        if (hold_of_node[node][axis] && hold_of_node[node][axis]->rigid) action(node, axis);
+      }
+    }
+  }
+  /// From positions `x` to where rigid holds have their nodes now; zero elsewhere [m].
+  std::vector<Vec3> way_of_held(std::span<const Vec3> x) const;
+  /// Of the elements, all loads and `body_force` on positions `x`.
+  Balance balance(std::span<const Vec3> x, std::span<const Vec3> body_force);
+  std::vector<Vec3> own_weight() const;
+  NodalMatrix tethers() const;  ///< their stiffness [N/m]
+  NodalMatrix dampers() const;
+  Newton& newton();
+  int relax(double time, const EquilibriumOptions& asked);
+  int balance_by_newton(double time, const EquilibriumOptions& asked);
+  void expect_unheld_parts_unloaded();
+  [[noreturn]] void report_imbalance(double time, double residual, double tolerance);
+  std::string describe(int node) const;
+  double cost_of_forces() const;
+  double cost_of_newton();
   std::vector<double> fictitious_masses(const std::vector<double>& least_stiffness);
   [[noreturn]] void report_divergence(double time) const;
 };

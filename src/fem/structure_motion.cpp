@@ -95,15 +95,18 @@ void Structure::Data::stop_rigidly_held() {
   }
 }
 
-void Structure::Data::set_time(double time) {
-  elements.set_time(time);
-  for (std::size_t i = 0; i < loads.holds.size(); ++i) hold_displacement[i] = at(loads.holds[i].displacement, time);
+void Structure::Data::set_time(double time, double share) {
+  elements.set_time(time, share);
+  load_share = share;
+  for (std::size_t i = 0; i < loads.holds.size(); ++i) {
+    hold_displacement[i] = share * at(loads.holds[i].displacement, time);
+  }
   if (loads.forces.empty()) return;
   dead_load.assign(x.size(), Vec3::Zero());
   for (const NodeLoad& load : loads.forces) {
     double volume = 0.0;
     for (const int node : load.nodes) volume += elements.nodal_volume()[node];
-    const Vec3 density = at(load.force, time) / volume;
+    const Vec3 density = share * at(load.force, time) / volume;
     for (const int node : load.nodes) dead_load[node] += elements.nodal_volume()[node] * density;
   }
 }
@@ -112,14 +115,14 @@ void Structure::Data::estimate_largest_frequency() {
   largest_frequency = std::sqrt(elements.largest_squared_frequency(x));
 }
 
-double Structure::Data::stable_step() const {
-  return options.safety * 2.0 / (std::sqrt(1.0 + 2.0 * options.dissipation) * largest_frequency);
+double Structure::Data::stable_step(double frequency) const {
+  return options.safety * 2.0 / (std::sqrt(1.0 + 2.0 * options.dissipation) * frequency);
 }
 
-int Structure::Data::substeps_for(double dt) const {
+int Structure::Data::substeps_for(double dt, double frequency) const {
   // Far beyond any useful count: a state that asks for more is on its way out of the bounds of J.
   constexpr int most = 1'000'000;
-  const double count = std::ceil(dt / stable_step());
+  const double count = std::ceil(dt / stable_step(frequency));
   return count < most ? std::max(1, static_cast<int>(count)) : most;
 }
 
@@ -139,30 +142,37 @@ void Structure::Data::report_divergence(double time) const {
                   place.z(), time));
 }
 
-void Structure::advance(double dt, double time) {
-  assert(dt > 0.0);
-  Data& d = *data_;
-  d.estimate_largest_frequency();
-  d.substeps = d.substeps_for(dt);
-  d.stop_rigidly_held();
-  d.elements.forget_out_of_bounds();
-  const double substep = dt / d.substeps;
+void Structure::Data::advance_explicitly(double dt, double time) {
+  estimate_largest_frequency();
+  substeps = substeps_for(dt, largest_frequency);
+  elements.forget_out_of_bounds();
+  const double substep = dt / substeps;
   int done = 0;
-#pragma omp parallel num_threads(d.elements.threads())
-  for (int n = 0; n < d.substeps; ++n) {
-    if (d.loads_vary) {
+#pragma omp parallel num_threads(elements.threads())
+  for (int n = 0; n < substeps; ++n) {
+    if (loads_vary) {
 #pragma omp single
-      d.set_time(time + (n + 1) * substep);
+      set_time(time + (n + 1) * substep);
     }
-    d.elements.compute_forces(d.x);
-    if (d.elements.out_of_bounds()) break;
+    elements.compute_forces(x);
+    if (elements.out_of_bounds()) break;
 #pragma omp single nowait
     done = n + 1;
 #pragma omp for schedule(static)
-    for (std::size_t point = 0; point < d.points.size(); ++point) d.move(point, substep);
+    for (std::size_t point = 0; point < points.size(); ++point) move(point, substep);
   }
-  if (d.elements.out_of_bounds()) d.report_divergence(time + done * substep);
+  if (elements.out_of_bounds()) report_divergence(time + done * substep);
+}
 
+void Structure::advance(double dt, double time) {
+  assert(dt > 0.0);
+  Data& d = *data_;
+  d.stop_rigidly_held();
+  if (integrator_for(dt) == Integrator::implicit_scheme) {
+    d.advance_implicitly(dt, time);
+  } else {
+    d.advance_explicitly(dt, time);
+  }
   Vec3 impulse = Vec3::Zero();
   for (const Vec3& of_point : d.hold_impulse) impulse += of_point;
   d.reaction = impulse / dt;

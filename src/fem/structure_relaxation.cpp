@@ -16,46 +16,7 @@ namespace {
 
 constexpr int refresh_interval = 100;  // iterations between estimates of the stiffness
 
-double squared_norm(const std::vector<Vec3>& field) {
-  double sum = 0.0;
-  for (const Vec3& value : field) sum += value.squaredNorm();
-  return sum;
-}
-
 }  // namespace
-
-/// What is left of all forces on each node, without those that rigid holds answer.
-Structure::Data::Balance Structure::Data::balance() {
-  Balance balance{std::vector<Vec3>(x.size()), Vec3::Zero(), 0.0};
-  elements.forget_out_of_bounds();
-#pragma omp parallel num_threads(elements.threads())
-  {
-    elements.compute_forces(x);
-#pragma omp for schedule(static)
-    for (std::size_t node = 0; node < x.size(); ++node) {
-      balance.left[node] = nodal_force(static_cast<int>(node));
-    }
-  }
-  double squares = 0.0;
-  for (std::size_t node = 0; node < x.size(); ++node) {
-    Vec3& left = balance.left[node];
-    Vec3 load = own_mass[node] * loads.gravity;
-    left += load;
-    if (!dead_load.empty()) load += dead_load[node];
-    squares += (load + elements.nodal_load(static_cast<int>(node))).squaredNorm();
-    for (int axis = 0; axis < 3; ++axis) {
-      const Hold* hold = hold_of_node[node][axis];
-      if (hold == nullptr) continue;
-      const double away = mesh.nodes[node][axis] + displacement_of(*hold, axis) - x[node][axis];
-      const double held = hold->rigid ? -left[axis] : elements.nodal_volume()[node] * hold->stiffness * away;
-      left[axis] += held;
-      balance.reaction[axis] += held;
-      squares += held * held;
-    }
-  }
-  balance.scale = std::sqrt(squares);
-  return balance;
-}
 
 std::vector<double> Structure::Data::fictitious_masses(const std::vector<double>& least_stiffness) {
   // With a mass of a quarter of the stiffness a step of 1 is at the limit; pressure adds a little stiffness of its own.
@@ -71,60 +32,43 @@ std::vector<double> Structure::Data::fictitious_masses(const std::vector<double>
   return mass;
 }
 
-void Structure::Data::move_rigidly_held() {
-  for (std::size_t node = 0; node < x.size(); ++node) {
-    for (int axis = 0; axis < 3; ++axis) {
-      const Hold* hold = hold_of_node[node][axis];
-      if (hold && hold->rigid) x[node][axis] = mesh.nodes[node][axis] + displacement_of(*hold, axis);
-    }
-  }
-}
-
-int Structure::relax(double time, const RelaxationOptions& options) {
-  Data& d = *data_;
-  d.set_time(time);
-  d.move_rigidly_held();
-  std::ranges::fill(d.v, Vec3::Zero());
-  const std::vector<double> least_stiffness = d.elements.nodal_stiffness(d.mesh.nodes);
+int Structure::Data::relax(double time, const EquilibriumOptions& asked) {
+  const std::vector<Vec3> way = way_of_held(x);
+  for (std::size_t node = 0; node < x.size(); ++node) x[node] += way[node];
+  const std::vector<double> least_stiffness = elements.nodal_stiffness(mesh.nodes);
   std::vector<double> mass;
-  std::vector<Vec3> last_change(d.x.size(), Vec3::Zero());
+  std::vector<Vec3> last_change(x.size(), Vec3::Zero());
   double energy_before = 0.0, scale = 0.0, residual = INFINITY;
-  for (int iteration = 0; iteration < options.most_iterations; ++iteration) {
-    if (iteration % refresh_interval == 0) mass = d.fictitious_masses(least_stiffness);
-    const Data::Balance balance = d.balance();
-    if (d.elements.out_of_bounds()) d.report_divergence(time);
-    const double left = std::sqrt(squared_norm(balance.left));
-    scale = std::max(balance.scale, iteration == 0 ? left : scale);
+  for (int iteration = 0; iteration < asked.most_iterations; ++iteration) {
+    if (iteration % refresh_interval == 0) mass = fictitious_masses(least_stiffness);
+    const Balance now = balance(x, own_weight());
+    if (!now.inside) report_divergence(time);
+    const double left = norm(now.left);
+    scale = std::max(now.scale, iteration == 0 ? left : scale);
     residual = scale > 0.0 ? left / scale : 0.0;
-    if (residual <= options.tolerance) {
-      std::ranges::fill(d.v, Vec3::Zero());
-      d.reaction = balance.reaction;
-      d.estimate_largest_frequency();
+    if (residual <= asked.tolerance) {
+      reaction = now.reaction;
       return iteration;
     }
     double energy = 0.0;
-    for (std::size_t node = 0; node < d.x.size(); ++node) {
-      d.v[node] += balance.left[node] / mass[node];
-      energy += 0.5 * mass[node] * d.v[node].squaredNorm();
+    for (std::size_t node = 0; node < x.size(); ++node) {
+      v[node] += now.left[node] / mass[node];
+      energy += 0.5 * mass[node] * v[node].squaredNorm();
     }
     const bool past_peak = energy < energy_before;
     energy_before = past_peak ? 0.0 : energy;
-    for (std::size_t node = 0; node < d.x.size(); ++node) {
+    for (std::size_t node = 0; node < x.size(); ++node) {
       // The peak lies, by linear interpolation of the energy, about half a step back.
       if (past_peak) {
-        d.x[node] -= 0.5 * last_change[node];
-        d.v[node].setZero();
+        x[node] -= 0.5 * last_change[node];
+        v[node].setZero();
       } else {
-        last_change[node] = d.v[node];
-        d.x[node] += d.v[node];
+        last_change[node] = v[node];
+        x[node] += v[node];
       }
     }
   }
-  throw Diverged(
-      fmt::format("no equilibrium of the structure was found at t = {:.6g} s in {} iterations: forces of "
-                  "{:.3g} of the loads and reactions are left, expected {:g}; a mechanism, or motion that "
-                  "nothing holds",
-                  time, options.most_iterations, residual, options.tolerance));
+  report_imbalance(time, residual, asked.tolerance);
 }
 
 }  // namespace drogue::fem

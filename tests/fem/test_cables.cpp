@@ -33,7 +33,7 @@ TEST(Cables, a_hanging_cable_sags_like_a_catenary) {
     Model model = cable(Vec3(1, 0, 0), 40, 1e8, length, true);
     model.loads.gravity = Vec3(0, 0, -9.81);
     Structure body(std::move(model));
-    body.relax(0.0, {.tolerance = 1e-5});
+    body.find_equilibrium(0.0, {.method = Equilibrium::relaxation, .tolerance = 1e-5});
     EXPECT_NEAR(-lowest(body) / sag, 1.0, 2e-3) << length;
     EXPECT_NEAR(body.reaction().z() / (1000.0 * 1e-6 * length * 9.81), 1.0, 1e-3);
   }
@@ -73,7 +73,7 @@ TEST(Cables, an_active_stress_shortens_a_free_cable_to_where_it_balances_the_pas
   std::get<Cable>(model.regions[0].kind).material.tension_only = false;
   model.regions[0].active.tension = Expression("1e5*t");
   Structure body(std::move(model));
-  body.relax(1.0, {.tolerance = 1e-9});
+  body.find_equilibrium(1.0, {.method = Equilibrium::relaxation, .tolerance = 1e-9});
   // E (lambda - 1) + T lambda^2 = 0
   const double stretch = (-1.0 + std::sqrt(1.0 + 4.0 * 0.1)) / 0.2;
   EXPECT_NEAR(body.position()[1].x(), stretch, 1e-8);
@@ -83,7 +83,7 @@ TEST(Cables, a_dead_load_is_shared_and_answered_by_the_hold) {
   Model model = cable(Vec3(0, 0, -2), 4, 1e6, 1.0, false);
   model.loads.forces = {{{1}, {Expression(0.0), Expression(0.0), Expression("-0.1*t")}}};
   Structure body(std::move(model));
-  body.relax(2.0, {.tolerance = 1e-9});
+  body.find_equilibrium(2.0, {.method = Equilibrium::relaxation, .tolerance = 1e-9});
   EXPECT_NEAR(body.position()[1].z(), -2.0 * (1.0 + 0.2), 1e-8);
   EXPECT_NEAR(body.reaction().z(), 0.2, 1e-9);
 }
