@@ -2,6 +2,7 @@
 // Which method is cheaper, from counts alone, so that a case has the same choice on every machine and for any number of
 // threads. The unit is a multiplication in the factorisation of a sparse matrix, about a nanosecond; docs/benchmarks.md
 // has what the costs were measured with.
+#include <algorithm>
 #include <cmath>
 
 #include "fem/structure_data.hpp"
@@ -36,6 +37,7 @@ double Structure::Data::cost_of_newton() {
 Integrator Structure::integrator_for(double dt) const {
   Data& d = *data_;
   if (d.options.integrator != Integrator::cheaper) return d.options.integrator;
+  if (std::ranges::any_of(d.loads.holds, &Hold::hinged)) return Integrator::explicit_scheme;
   const double explicit_cost = d.substeps_for(dt, d.reference_frequency) * d.cost_of_forces();
   const bool may_pay = explicit_cost > implicit_iterations * 2.0 * d.cost_of_forces();  // spares the factorisation
   return may_pay && implicit_iterations * d.cost_of_newton() < explicit_cost ? Integrator::implicit_scheme
