@@ -9,6 +9,7 @@
 
 #include "fem/elements.hpp"
 #include "fem/mesh_shapes.hpp"
+#include "fem/sparse_system.hpp"
 #include "fem/structure.hpp"
 #include "fem/thin_solid.hpp"
 
@@ -49,6 +50,36 @@ void stable_step(benchmark::State& state, const Material& material) {
   for (auto _ : state) benchmark::DoNotOptimize(elements.largest_squared_frequency(x));
 }
 
+void tangent(benchmark::State& state, const Material& material) {
+  const Mesh mesh = plate();
+  const std::vector<Region> regions{{"", 1.0, Solid{material}}};
+  const Elements elements(mesh, regions, {}, {0.05, 20.0});
+  TangentStiffness stiffness(elements);
+  const std::vector<Vec3> x = deformed(mesh);
+  for (auto _ : state) stiffness.update(x);
+  state.counters["entries/s"] = benchmark::Counter(576.0 * elements.count() * static_cast<double>(state.iterations()),
+                                                   benchmark::Counter::kIsRate);
+}
+
+/// Sum and factorisation of the tangent of a plate of n x n hexahedra, with a mass that makes it positive definite.
+void factorisation(benchmark::State& state) {
+  const int n = static_cast<int>(state.range(0));
+  const Mesh mesh = make_plate({Vec3::Zero(), 0, {0.8128, 0.8128}, 5e-3, {n, n, 1}});
+  const std::vector<Region> regions{{"", 1.0, Solid{NeoHookean(1e3, 0.3, 0.3)}}};
+  Elements elements(mesh, regions, {}, {0.05, 20.0});
+  TangentStiffness stiffness(elements);
+  stiffness.update(mesh.nodes);
+  SparseSystem system(stiffness, SparseSystem::Held(mesh.nodes.size()), {});
+  NodalMatrix mass{{}, {}};
+  for (const double diagonal : elements.nodal_stiffness(mesh.nodes)) {
+    mass.diagonal.emplace_back(Vec3::Constant(1e-3 * diagonal));
+  }
+  for (auto _ : state) system.factorise(mass);
+  state.counters["operations"] = system.operations();
+  state.counters["operations/s"] =
+      benchmark::Counter(system.operations() * static_cast<double>(state.iterations()), benchmark::Counter::kIsRate);
+}
+
 /// One fluid step of 7.8e-4 s, the pairs of nodes carrying 40 times their own mass, corners held.
 void advance(benchmark::State& state, const Material& material) {
   omp_set_num_threads(static_cast<int>(state.range(0)));
@@ -82,6 +113,9 @@ BENCHMARK_CAPTURE(forces, saint_venant_kirchhoff / trilinear, saint_venant_kirch
 BENCHMARK_CAPTURE(forces, saint_venant_kirchhoff / assumed_strain, saint_venant_kirchhoff, Hexahedron::assumed_strain);
 BENCHMARK_CAPTURE(stable_step, neo_hookean, neo_hookean);
 BENCHMARK_CAPTURE(stable_step, saint_venant_kirchhoff, saint_venant_kirchhoff);
+BENCHMARK_CAPTURE(tangent, neo_hookean, neo_hookean);
+BENCHMARK_CAPTURE(tangent, saint_venant_kirchhoff, saint_venant_kirchhoff);
+BENCHMARK(factorisation)->Arg(13)->Arg(26)->Arg(52);
 BENCHMARK_CAPTURE(advance, neo_hookean, neo_hookean)->Arg(1)->Arg(2)->UseRealTime();
 BENCHMARK_CAPTURE(advance, saint_venant_kirchhoff, saint_venant_kirchhoff)->Arg(1)->Arg(2)->UseRealTime();
 

@@ -172,7 +172,7 @@ void Structure::Data::assign_points(Inertia new_inertia) {
   assemble_mass();
   compare_masses();
   estimate_largest_frequency();
-  reference_frequency = largest_frequency;
+  reference_step = stable_step();
 }
 
 /// The mean of a pair has the mass M and the difference mu, so that their kinetic energy is half of
@@ -300,7 +300,7 @@ bool Structure::is_held_rigidly(int node) const {
   return std::ranges::all_of(data_->hold_of_node[node], [](const Hold* hold) { return hold && hold->rigid; });
 }
 
-double Structure::stable_step() const { return data_->stable_step(data_->largest_frequency); }
+double Structure::stable_step() const { return data_->stable_step(); }
 
 Vec3 Structure::reaction() const { return data_->reaction; }
 

@@ -99,7 +99,7 @@ class Structure {
   const std::string& free_motion() const;
   /// What is cheaper by an estimate from counts.
   Equilibrium cheaper_equilibrium() const;
-  int substeps() const;              ///< taken by the last advance
+  int substeps() const;              ///< taken by the last advance, or iterations to the last equilibrium
   double stable_step() const;        ///< [s] longest sub-step of the scheme, safety included, for largest_frequency()
   double largest_frequency() const;  ///< [rad/s] upper estimate from the elements as deformed, behind the sub-step
 

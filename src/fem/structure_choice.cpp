@@ -4,6 +4,7 @@
 // has what the costs were measured with.
 #include <algorithm>
 #include <cmath>
+#include <vector>
 
 #include "fem/structure_data.hpp"
 
@@ -16,6 +17,34 @@ constexpr double per_operation = 1.0;      // of a factorisation
 constexpr double implicit_iterations = 4;  // of a step
 constexpr double newton_iterations = 25;   // to an equilibrium
 constexpr double crossings = 60;           // of the body by a wave, to an equilibrium by relaxation
+
+/// Number of elements in a row from the node furthest from node 0 to the one furthest from that; parts that hang
+/// together with neither do not count.
+int elements_across(const Elements& elements, std::size_t nodes) {
+  std::vector<std::vector<int>> neighbours(nodes);
+  for (const auto& group : elements.groups()) {
+    for (int e = 0; e < group->count(); ++e) {
+      for (const int a : group->nodes_of(e)) {
+        for (const int b : group->nodes_of(e)) neighbours[a].push_back(b);
+      }
+    }
+  }
+  int start = 0, distance = 0;
+  for (int sweep = 0; sweep < 2; ++sweep) {
+    std::vector<int> away(nodes, -1), reached{start};
+    away[start] = 0;
+    for (std::size_t k = 0; k < reached.size(); ++k) {
+      for (const int node : neighbours[reached[k]]) {
+        if (away[node] >= 0) continue;
+        away[node] = away[reached[k]] + 1;
+        reached.push_back(node);
+      }
+    }
+    start = reached.back();
+    distance = away[start];
+  }
+  return distance;
+}
 
 }  // namespace
 
@@ -38,7 +67,7 @@ Integrator Structure::integrator_for(double dt) const {
   Data& d = *data_;
   if (d.options.integrator != Integrator::cheaper) return d.options.integrator;
   if (std::ranges::any_of(d.loads.holds, &Hold::hinged)) return Integrator::explicit_scheme;
-  const double explicit_cost = d.substeps_for(dt, d.reference_frequency) * d.cost_of_forces();
+  const double explicit_cost = std::ceil(dt / d.reference_step) * d.cost_of_forces();
   const bool may_pay = explicit_cost > implicit_iterations * 2.0 * d.cost_of_forces();  // spares the factorisation
   return may_pay && implicit_iterations * d.cost_of_newton() < explicit_cost ? Integrator::implicit_scheme
                                                                              : Integrator::explicit_scheme;
@@ -46,8 +75,7 @@ Integrator Structure::integrator_for(double dt) const {
 
 Equilibrium Structure::cheaper_equilibrium() const {
   Data& d = *data_;
-  const double across = d.elements.count();  // TODO
-  const double relaxation_cost = crossings * across * d.cost_of_forces();
+  const double relaxation_cost = crossings * elements_across(d.elements, d.x.size()) * d.cost_of_forces();
   return newton_iterations * d.cost_of_newton() < relaxation_cost ? Equilibrium::newton : Equilibrium::relaxation;
 }
 

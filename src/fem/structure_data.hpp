@@ -66,7 +66,7 @@ struct Structure::Data {
   double load_share = 1.0;              ///< of the loads that acts now
   std::unique_ptr<Newton> solver;       ///< once it is needed
   std::string free_motion;              ///< at the last equilibrium, in words; empty if there is none
-  double reference_frequency = 0.0;     ///< the largest when the inertia was set [rad/s]
+  double reference_step = 0.0;          ///< stable_step() when the inertia was set [s]
   std::vector<Vec3> acceleration;       ///< of each node, of the implicit scheme; empty where unknown [m/s^2]
   NodalMatrix mass_matrix;              ///< of the points, see Inertia [kg]
   std::vector<Vec3> nodal_weight;       ///< of each node [N]
@@ -79,8 +79,8 @@ struct Structure::Data {
   void assemble_mass();
   void compare_masses();
   void estimate_largest_frequency();
-  double stable_step(double frequency) const;
-  int substeps_for(double dt, double frequency) const;
+  double stable_step() const;
+  int substeps_for(double dt) const;
   void stop_rigidly_held();
   /// A share of the loads of `time` [s] acts from now on.
   void set_time(double time, double share = 1.0);

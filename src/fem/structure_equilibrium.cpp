@@ -177,11 +177,10 @@ int Structure::find_equilibrium(double time, const EquilibriumOptions& options) 
   d.expect_unheld_parts_unloaded();
   const Equilibrium method = options.method == Equilibrium::cheaper ? cheaper_equilibrium() : options.method;
   std::ranges::fill(d.v, Vec3::Zero());
-  const int iterations =
-      method == Equilibrium::relaxation ? d.relax(time, options) : d.balance_by_newton(time, options);
+  d.substeps = method == Equilibrium::relaxation ? d.relax(time, options) : d.balance_by_newton(time, options);
   std::ranges::fill(d.v, Vec3::Zero());
   d.estimate_largest_frequency();
-  return iterations;
+  return d.substeps;
 }
 
 const std::string& Structure::free_motion() const { return data_->free_motion; }

@@ -116,14 +116,14 @@ void Structure::Data::estimate_largest_frequency() {
   largest_frequency = std::sqrt(elements.largest_squared_frequency(x));
 }
 
-double Structure::Data::stable_step(double frequency) const {
-  return options.safety * 2.0 / (std::sqrt(1.0 + 2.0 * options.dissipation) * frequency);
+double Structure::Data::stable_step() const {
+  return options.safety * 2.0 / (std::sqrt(1.0 + 2.0 * options.dissipation) * largest_frequency);
 }
 
-int Structure::Data::substeps_for(double dt, double frequency) const {
+int Structure::Data::substeps_for(double dt) const {
   // Far beyond any useful count: a state that asks for more is on its way out of the bounds of J.
   constexpr int most = 1'000'000;
-  const double count = std::ceil(dt / stable_step(frequency));
+  const double count = std::ceil(dt / stable_step());
   return count < most ? std::max(1, static_cast<int>(count)) : most;
 }
 
@@ -145,7 +145,7 @@ void Structure::Data::report_divergence(double time) const {
 
 void Structure::Data::advance_explicitly(double dt, double time) {
   estimate_largest_frequency();
-  substeps = substeps_for(dt, largest_frequency);
+  substeps = substeps_for(dt);
   elements.forget_out_of_bounds();
   const double substep = dt / substeps;
   int done = 0;

@@ -58,7 +58,7 @@ Vec3 tip_displacement(const Strip& strip, const Solid& solid, double load, bool 
   loads.holds.push_back({.nodes = wide ? all : first(0.0, 0.0), .rigid = true, .axes = {false, true, false}});
   loads.forces.push_back({end, {Expression(0.0), Expression(0.0), Expression(load)}});
   Structure body(Model{mesh, {{"", 1.0, solid}}, loads, {}});
-  body.relax(0.0, {.tolerance = 1e-6});
+  body.find_equilibrium(0.0, {.method = Equilibrium::newton, .tolerance = 1e-8});
   return mean_displacement(body, end);
 }
 
@@ -99,7 +99,7 @@ TEST(Bending, strips_of_trapezoids_converge) {
 
 TEST(Bending, wide_plates_have_the_stiffness_of_plates_up_to_incompressibility) {
   constexpr double young = 1e6;
-  for (const double poisson : {0.0, 0.3, 0.45, 0.49}) {
+  for (const double poisson : {0.0, 0.3, 0.45, 0.4999}) {
     const Strip strip{.width = 0.04, .elements = 25};
     const double plate_young = young / (1.0 - poisson * poisson);
     const double load = 0.01 * 3.0 * plate_young * inertia(strip);
@@ -137,7 +137,7 @@ double cook(int n, const Solid& solid) {
       {.nodes = nodes_where(mesh, [](const Vec3&) { return true; }), .rigid = true, .axes = {false, false, true}});
   loads.forces.push_back({right, {Expression(0.0), Expression(share * 100.0), Expression(0.0)}});
   Structure body(Model{mesh, {{"", 1.0, solid}}, loads, {}});
-  body.relax(0.0, {.tolerance = 1e-5});
+  body.find_equilibrium(0.0, {.method = Equilibrium::newton, .tolerance = 1e-8});
   return mean_displacement(body, corner).y() / share;
 }
 

@@ -47,15 +47,6 @@ Momenta momenta(const Structure& body) {
   return sum;
 }
 
-// Velocities of the leapfrog scheme stand half a sub-step behind; advanced to the positions they belong to an energy
-// that does not depend on the phase of a vibration.
-double synchronised_energy(const Structure& body, double substep) {
-  const auto force = internal_force(body, copy(body.position()));
-  double power = 0.0;
-  for (std::size_t i = 0; i < force.size(); ++i) power += force[i].dot(body.velocity()[i]);
-  return energy(body) + 0.5 * substep * power;
-}
-
 TEST(Structure, free_vibration_keeps_its_energy_over_a_hundred_periods) {
   constexpr double length = 0.1;
   for (const Material& law : {Material(neo_hookean), Material(saint_venant_kirchhoff)}) {

@@ -37,6 +37,7 @@ struct PlateOptions {
   double side = 0.5, thickness = 0.01;
   int elements = 16;
   std::vector<fem::Hold> holds{};
+  fem::StructureOptions structure{};
 };
 
 /// A plate normal to x in the middle of the fine cube, or of the periodic box.
@@ -44,7 +45,7 @@ inline fem::Structure plate(const PlateOptions& options, const Vec3& centre = Ve
   const int n = options.elements;
   return fem::Structure(
       fem::one_solid(fem::make_plate({centre, 0, {options.side, options.side}, options.thickness, {n, n, 1}}),
-                     fem::NeoHookean(1000.0, 0.3, 0.3), options.density, options.holds));
+                     fem::NeoHookean(1000.0, 0.3, 0.3), options.density, options.holds, options.structure));
 }
 
 inline std::vector<int> all_nodes(int elements) {

@@ -18,8 +18,8 @@ const Vec3 centre(1.02, 0.49, 0.51);
 
 class Stability : public OnOneThread {};
 
-fem::Structure held_plate(double density = fluid_density) {
-  PlateOptions options{.density = density, .thickness = 0.02, .elements = 8};
+fem::Structure held_plate(fem::Integrator integrator = fem::Integrator::explicit_scheme) {
+  PlateOptions options{.thickness = 0.02, .elements = 8, .structure = {.integrator = integrator}};
   const fem::Structure free = plate(options, centre);
   options.holds = {{.nodes = fem::corner_nodes(free.mesh(), 0.5 / 8), .rigid = true}};
   return plate(options, centre);
@@ -49,6 +49,29 @@ TEST_F(Stability, a_massless_plate_stays_bounded_for_thousands_of_steps) {
   EXPECT_LT(fastest_closing, 0.05 * fastest);
   EXPECT_GT(thinnest, 0.5);
   EXPECT_LT(thickest, 2.0);
+}
+
+TEST_F(Stability, a_massless_plate_moves_alike_by_the_implicit_scheme) {
+  const amr::Forest forest = periodic_box();
+  FakeFluid fluid(forest, fluid_density), other_fluid(forest, fluid_density);
+  fem::Structure solid = held_plate(), other = held_plate(fem::Integrator::implicit_scheme);
+  Coupling coupling(solid, forest, coupled()), other_coupling(other, forest, coupled());
+  const auto gust = [](const Vec3& x) { return Vec3(1.5, 0.1 * std::sin(20 * x.z()), 0.1 * std::cos(31 * x.y())); };
+  fluid.fill(gust);
+  other_fluid.fill(gust);
+  double moved = 0.0, apart = 0.0;
+  for (int step = 0; step < 100; ++step) {
+    fluid.step(coupling, dt, 0.99);
+    other_fluid.step(other_coupling, dt, 0.99);
+    for (std::size_t point = 0; point < solid.inertia().point.size(); ++point) {
+      const Vec3 position = solid.mean_position(static_cast<int>(point));
+      apart = std::max(apart, (position - other.mean_position(static_cast<int>(point))).norm());
+      moved = std::max(moved, (position.x() - centre.x()));
+    }
+  }
+  std::printf("moved by %.3g m, apart by %.3g m, %d and %d sub-steps\n", moved, apart, solid.substeps(),
+              other.substeps());
+  EXPECT_LT(apart, 0.05 * moved);
 }
 
 TEST_F(Stability, a_disturbance_of_the_thickness_decays) {
