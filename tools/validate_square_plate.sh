@@ -20,6 +20,7 @@ step-double|square_plate|twice the time step and Mach number|--set fluid.lattice
 patch-16mm|square_plate|held patch 1/64 m, one element|--set body.plate.hold.0.patch=0.016
 patch-63mm|square_plate|held patch 1/16 m|--set body.plate.hold.0.patch=0.063
 mesh-26|square_plate|26 x 26 hexahedra|--set body.plate.mesh.elements=[26,26,1]
+assumed-strain|square_plate|hexahedra that do not lock|--set body.plate.element="assumed_strain"
 mesh-104|square_plate|104 x 104 hexahedra|--set body.plate.mesh.elements=[104,104,1]
 delta-3|square_plate|three-point delta|--set body.plate.coupling.delta=peskin3
 peskin|square_plate|plain IB/FE coupling, corners held rigidly, quarter time step|--set body.plate.coupling.scheme=peskin --set fluid.lattice_velocity=0.0125 --set body.plate.hold=[{nodes="corners",patch=0.032,rigid=true}]

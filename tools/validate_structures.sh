@@ -22,9 +22,17 @@ cable() {
 }
 beam() {
   local n
-  for n in 120 240; do
+  for n in 10 20 40; do
     echo "beam-$1-$n|cantilever_large_deflection|alpha = $1, $n elements|--set body.beam.mesh.elements=[$n,1,2] --set body.beam.force.0.force=[0,0,$1] --set reference.deflection_over_length.value=$2 --set reference.shortening_over_length.value=$3"
   done
+  echo "beam-$1-20-trilinear|cantilever_large_deflection|alpha = $1, 20 trilinear elements|--set body.beam.element=\"trilinear\" --set body.beam.force.0.force=[0,0,$1] --set reference.deflection_over_length.value=$2 --set reference.shortening_over_length.value=$3"
+}
+
+# flag NAME FINEST RATIO WHAT [ARGUMENTS]: cells of 1/FINEST, mass ratio RATIO.
+flag() {
+  local grid
+  grid="--set grid.finest=1/$2 --set grid.region.1.spacing=2/$2 --set grid.region.2.spacing=4/$2"
+  echo "flag-$1|flag_3d|$4|$grid --set body.flag.density=1+100*$3 ${5:-}"
 }
 
 # name | case | what it changes | arguments of ./drogue run
@@ -40,7 +48,21 @@ matrix() {
   echo "pendulum|cable_pendulum|four cables|"
   beam 1 0.301721 0.056433
   beam 4 0.669964 0.328941
+  for n in 8 16 32; do echo "cook-$n-trilinear|cook_membrane|$n x $n trilinear|--set body.panel.mesh.elements=[$n,$n,1] --set body.panel.element=\"trilinear\""; done
   for n in 8 16 32; do echo "cook-$n|cook_membrane|$n x $n|--set body.panel.mesh.elements=[$n,$n,1]"; done
+  for n in 8 16; do
+    for kind in assumed_strain trilinear; do
+      echo "cook-incompressible-$n-$kind|cook_membrane|nu = 0.499, $n x $n $kind (reference 32 x 32)|--set body.panel.mesh.elements=[$n,$n,1] --set body.panel.element=\"$kind\" --set body.panel.material.poisson=0.499 --set reference.tip_displacement.value=0.02749"
+    done
+  done
+  flag 32 32 1 'cells of 1/32'
+  flag 64 64 1 'cells of 1/64, the case'
+  flag 32-elements 32 1 'cells of 1/32, 64 x 64 elements' '--set body.flag.mesh.elements=[64,64,1]'
+  flag 32-trilinear 32 1 'cells of 1/32, trilinear elements' '--set body.flag.element="trilinear"'
+  flag 32-step-half 32 1 'cells of 1/32, half the time step and Mach number' '--set fluid.lattice_velocity=0.05'
+  flag 32-delta-3 32 1 'cells of 1/32, three-point delta' '--set body.flag.coupling.delta=peskin3'
+  flag 32-light 32 0.1 'cells of 1/32, mass ratio 0.1'
+  flag 32-massless 32 0 'cells of 1/32, mass ratio 0'
   for n in 8 16 32; do echo "airbag-$n|airbag_square|$n x $n, tension field|--set body.airbag.mesh.elements=[$n,$n]"; done
   echo "airbag-16-compressed|airbag_square|16 x 16, bears compression|--set body.airbag.wrinkling=false"
 }
@@ -55,3 +77,7 @@ matrix() {
   rows cook tip_displacement reference difference
   rows airbag centre_displacement reference difference
 } | write_table 'structures'
+{
+  heading run 'what differs' 'amplitude over length' 'Strouhal number' 'C_D'
+  rows flag amplitude_over_length strouhal cd_stable
+} | write_table 'flag'

@@ -81,7 +81,7 @@ struct Probe {
   Vec3 place = Vec3::Zero();       ///< the node nearest to it in the mesh [m]
   Vec3 direction = Vec3::UnitX();  ///< unit vector
   double scale = 1.0;              ///< [m] that the displacement is divided by
-  std::string statistic;           ///< "last", "peak", "stable" or "period"
+  std::string statistic;           ///< see results.cpp
 };
 
 struct ElasticBody {

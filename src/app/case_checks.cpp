@@ -145,9 +145,15 @@ void check_fluid(const Case& c) {
 
 void check_elastic(const Case& c, const std::string& key, const ElasticBody& body) {
   const auto [low, high] = body.structure.volume_ratio;
-  if (low < 1.0 && high > 1.0) return;
-  fail(c, key + ".volume_ratio",
-       fmt::format("= {} does not enclose 1, the undeformed state", write_value(body.structure.volume_ratio)));
+  if (!(low < 1.0 && high > 1.0)) {
+    fail(c, key + ".volume_ratio",
+         fmt::format("= {} does not enclose 1, the undeformed state", write_value(body.structure.volume_ratio)));
+  }
+  for (const Probe& probe : body.probes) {
+    if (probe.statistic != "strouhal" || c.reference_length > 0.0) continue;
+    fail(c, fmt::format("{}.probe.{}.result", key, probe.name),
+         "= \"strouhal\" needs fluid.reference_length and fluid.reference_velocity");
+  }
 }
 
 void check_rigid(const Case& c, const std::string& key, const RigidBody& body) {

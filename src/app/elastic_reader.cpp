@@ -120,8 +120,8 @@ constexpr const char* active_doc = "active stress, of elements that pull by them
 
 fem::Hexahedron read_element(Section& section) {
   return section.choose<fem::Hexahedron>(
-      "element", {{"trilinear", fem::Hexahedron::trilinear}, {"assumed_strain", fem::Hexahedron::assumed_strain}},
-      {.doc = "of a solid: trilinear, which is too stiff in bending, or assumed_strain", .fallback = "trilinear"});
+      "element", {{"assumed_strain", fem::Hexahedron::assumed_strain}, {"trilinear", fem::Hexahedron::trilinear}},
+      {.doc = "of a solid: assumed_strain, or trilinear, which locks in bending", .fallback = "assumed_strain"});
 }
 
 /// A membrane has a thickness, a cable the law of one; the rest is solid.
@@ -209,7 +209,7 @@ std::array<bool, 3> read_axes(Section& section) {
   return held;
 }
 
-HoldDescription read_hold(Section& section) {
+HoldDescription read_hold(Section& section, bool in_flow) {
   HoldDescription description{read_nodes(section), {}};
   fem::Hold& hold = description.hold;
   hold.axes = read_axes(section);
@@ -220,6 +220,10 @@ HoldDescription read_hold(Section& section) {
     hold.damping = section.get<double>(
         "damping",
         {.unit = "N s/m^4", .doc = "of the tether, per velocity and volume", .fallback = 0.0, .range = not_negative});
+  }
+  if (in_flow) {
+    hold.hinged = section.get<bool>(
+        "hinged", {.doc = "of a solid thinner than a cell: hold its mid-surface, which may turn", .fallback = false});
   }
   hold.displacement = read_formulas_of_time(
       section, "displacement", {.unit = "m", .doc = "prescribed, of the place that is held", .fallback = Formulas{}});
@@ -236,14 +240,22 @@ Probe read_probe(Section& section) {
   probe.scale = section.get<double>(
       "over", {.unit = "m", .doc = "a length that the displacement is divided by", .fallback = 1.0, .range = positive});
   probe.statistic = section.choose<std::string>(
-      "result", {{"last", "last"}, {"peak", "peak"}, {"stable", "stable"}, {"period", "period"}},
-      {.doc = "last value, peak, mean over results.stable_window, or period of oscillation", .fallback = "last"});
+      "result",
+      {{"last", "last"},
+       {"peak", "peak"},
+       {"stable", "stable"},
+       {"period", "period"},
+       {"peak_to_peak", "peak_to_peak"},
+       {"strouhal", "strouhal"}},
+      {.doc = "last value, peak, mean over results.stable_window, period of oscillation; over that window "
+              "highest less lowest value, or frequency times fluid.reference_length / reference_velocity",
+       .fallback = "last"});
   return probe;
 }
 
-void read_loads(Section& section, ElasticBody& body) {
+void read_loads(Section& section, ElasticBody& body, bool in_flow) {
   section.each("hold", "nodes that are held near where they start",
-               [&](Section& hold) { body.holds.push_back(read_hold(hold)); });
+               [&](Section& hold) { body.holds.push_back(read_hold(hold, in_flow)); });
   section.each("force", "a dead load on nodes", [&](Section& force) {
     body.forces.push_back({read_nodes(force), {}});
     body.forces.back().force = read_formulas_of_time(
@@ -318,7 +330,7 @@ Body read_elastic(Section& section, const Case& c) {
                [&](Section& point) { body.points.push_back(read_point(point)); });
   section.each("cable", "cables that are added to the mesh",
                [&](Section& cable) { body.cables.push_back(read_cable(cable)); });
-  read_loads(section, body);
+  read_loads(section, body, in_flow);
   body.structure = read_structure(section);
   section.each("probe", "a displacement to be measured",
                [&](Section& probe) { body.probes.push_back(read_probe(probe)); });

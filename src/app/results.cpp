@@ -73,7 +73,7 @@ Number last(const Column&, const Column& value, const Case&) {
 }
 
 /// Mean time between rises through the middle of the range, from the first to the last.
-Number period(const Column& time, const Column& value, const Case&) {
+Number mean_period(const Column& time, const Column& value) {
   if (value.empty()) return std::nullopt;
   const auto [low, high] = std::ranges::minmax(value);
   const double middle = 0.5 * (low + high);
@@ -84,6 +84,35 @@ Number period(const Column& time, const Column& value, const Case&) {
   }
   if (rises.size() < 2) return std::nullopt;
   return (rises.back() - rises.front()) / static_cast<double>(rises.size() - 1);
+}
+
+Number period(const Column& time, const Column& value, const Case&) { return mean_period(time, value); }
+
+/// Rows of the stable window: times and values; none before the run has reached its end.
+std::array<Column, 2> rows_of_window(const Column& time, const Column& value, const Case& c) {
+  const auto [begin, end] = c.results.stable_window;
+  const double slack = 1e-9 * end;
+  std::array<Column, 2> rows;
+  if (time.empty() || time.back() < end - slack) return rows;
+  for (std::size_t i = 0; i < time.size(); ++i) {
+    if (time[i] < begin - slack || time[i] > end + slack) continue;
+    rows[0].push_back(time[i]);
+    rows[1].push_back(value[i]);
+  }
+  return rows;
+}
+
+Number peak_to_peak(const Column& time, const Column& value, const Case& c) {
+  const auto [times, values] = rows_of_window(time, value, c);
+  if (values.empty()) return std::nullopt;
+  const auto [low, high] = std::ranges::minmax(values);
+  return high - low;
+}
+
+Number strouhal(const Column& time, const Column& value, const Case& c) {
+  const auto [times, values] = rows_of_window(time, value, c);
+  const Number seconds = mean_period(times, values);
+  return seconds ? Number(c.reference_length / (*seconds * c.fluid.reference_velocity)) : std::nullopt;
 }
 
 struct Definition {
@@ -129,11 +158,19 @@ const std::vector<FlowDefinition>& flow_results() {
   return list;
 }
 
+/// What may be asked of a probe, with its unit if it is not that of the probe.
+struct Statistic {
+  Number (*value)(const Column&, const Column&, const Case&);
+  std::optional<std::string> unit;
+};
+
 Definition definition_of(const Probe& probe, const std::string& body) {
-  static const std::map<std::string, Number (*)(const Column&, const Column&, const Case&)> statistics{
-      {"last", last}, {"peak", peak}, {"stable", stable}, {"period", period}};
-  const std::string unit = probe.statistic == "period" ? "s" : unit_of(probe);
-  return {probe.name, unit == "1" ? "" : unit, body + "." + probe.name, statistics.at(probe.statistic)};
+  static const std::map<std::string, Statistic> statistics{
+      {"last", {last, {}}},      {"peak", {peak, {}}},          {"stable", {stable, {}}},
+      {"period", {period, "s"}}, {"strouhal", {strouhal, "1"}}, {"peak_to_peak", {peak_to_peak, {}}}};
+  const auto& [value, own_unit] = statistics.at(probe.statistic);
+  const std::string unit = own_unit.value_or(unit_of(probe));
+  return {probe.name, unit == "1" ? "" : unit, body + "." + probe.name, value};
 }
 
 /// The results that a case has, each with the full name of its column.

@@ -19,6 +19,7 @@ struct Hold {
   bool rigid = false;
   double stiffness = 0.0;  ///< kappa [N/m^4]
   double damping = 0.0;    ///< eta [N s/m^4]
+  bool hinged = false;     ///< pairs of nodes, see Inertia, may turn about their middle; for explicit motion
   std::array<bool, 3> axes{true, true, true};
   std::array<Expression, 3> displacement{};  ///< of time alone [m]
 

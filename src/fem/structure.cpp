@@ -42,8 +42,8 @@ void expect_node(const char* what, int node, std::size_t nodes) {
   throw InputError(fmt::format("{} names node {}; expected 0 to {}", what, node, nodes - 1));
 }
 
-std::vector<std::array<const Hold*, 3>> hold_of_each_node(const std::vector<Hold>& holds, std::size_t nodes) {
-  std::vector<std::array<const Hold*, 3>> of_node(nodes, {nullptr, nullptr, nullptr});
+std::vector<Holds> hold_of_each_node(const std::vector<Hold>& holds, std::size_t nodes) {
+  std::vector<Holds> of_node(nodes, {nullptr, nullptr, nullptr});
   for (const Hold& hold : holds) {
     if (!(hold.stiffness >= 0.0 && hold.damping >= 0.0)) {
       throw InputError(
@@ -126,7 +126,11 @@ Structure::Data::Data(Model model)
   if (!(loads.damping >= 0.0)) {
     throw InputError(fmt::format("the structure's damping is {} 1/s; expected no negative number", loads.damping));
   }
-  for (const Hold& hold : loads.holds) hold_moves.push_back(hold.moves());
+  for (const Hold& hold : loads.holds) {
+    hold_moves.push_back(hold.moves());
+    if (!hold.hinged || options.integrator != Integrator::implicit_scheme) continue;
+    throw InputError("a hold is hinged, which implicit motion does not know; expected explicit motion");
+  }
   loads_vary = elements.vary() || std::ranges::find(hold_moves, true) != hold_moves.end() ||
                std::ranges::any_of(loads.forces, [](const NodeLoad& load) { return vary(load.force); });
   for (const NodeLoad& load : loads.forces) {
@@ -255,7 +259,16 @@ void Structure::set_state(std::span<const Vec3> position, std::span<const Vec3> 
   data_->estimate_largest_frequency();
 }
 
-void Structure::set_inertia(Inertia inertia) { data_->assign_points(std::move(inertia)); }
+void Structure::set_inertia(Inertia inertia) {
+  data_->assign_points(std::move(inertia));
+  for (const Point& p : data_->points) {
+    if (p.is_pair() || std::ranges::none_of(p.hold, [](const Hold* hold) { return hold && hold->hinged; })) continue;
+    throw InputError(
+        fmt::format("node {} is held by a hinge, but faces no other node through a solid that is thin against the "
+                    "grid; expected a thinner solid, or a hold that is not hinged",
+                    p.a));
+  }
+}
 const Inertia& Structure::inertia() const { return data_->inertia; }
 
 void Structure::set_mean_velocity(int point, const Vec3& v) {

@@ -76,7 +76,7 @@ class Structure {
   void set_state(std::span<const Vec3> position, std::span<const Vec3> velocity);
 
   /// Replaces the default inertia (every node a point of its own mass). Throws InputError for a mass that is not
-  /// positive, a node not in exactly one point, or a pair whose nodes are not held alike.
+  /// positive, a node not in exactly one point, a pair whose nodes are not held alike, or a hinge of a node alone.
   void set_inertia(Inertia inertia);
   const Inertia& inertia() const;
   /// Shifts both nodes of a point so that their mean velocity becomes `v` [m/s]; differences are kept.

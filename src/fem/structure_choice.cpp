@@ -2,6 +2,7 @@
 // Which method is cheaper, from counts alone, so that a case has the same choice on every machine and for any number of
 // threads. Costs are in nanoseconds of the machine of docs/benchmarks.md, where they were measured; only their ratios
 // matter.
+#include <algorithm>
 #include <cmath>
 #include <vector>
 
@@ -65,6 +66,7 @@ double Structure::Data::cost_of_newton() {
 Integrator Structure::integrator_for(double dt) const {
   Data& d = *data_;
   if (d.options.integrator != Integrator::cheaper) return d.options.integrator;
+  if (std::ranges::any_of(d.loads.holds, &Hold::hinged)) return Integrator::explicit_scheme;
   const double explicit_cost = std::ceil(dt / d.reference_step) * d.cost_of_forces();
   const bool may_pay = explicit_cost > implicit_iterations * 2.0 * d.cost_of_forces();  // spares the factorisation
   return may_pay && implicit_iterations * d.cost_of_newton() < explicit_cost ? Integrator::implicit_scheme

@@ -21,15 +21,18 @@ struct Inertance {
   double volume;  ///< [m^3]
 };
 
+using Holds = std::array<const Hold*, 3>;  ///< along each axis, or nullptr
+
 struct Point {
   int a, b;  ///< nodes; b is -1 for a single one
   double share_a, share_b;
   Inertance mean, difference;
-  Vec3 weight;                      ///< [N]
-  std::array<const Hold*, 3> hold;  ///< along each axis, or nullptr
+  Vec3 weight;  ///< [N]
+  Holds hold;   ///< of the mean, and of a pair's difference but for a hinge
 
   bool is_pair() const { return b >= 0; }
   bool is_held() const { return hold[0] || hold[1] || hold[2]; }
+  bool may_turn(int axis) const { return hold[axis] == nullptr || hold[axis]->hinged; }
   Vec3 mean_of(const std::vector<Vec3>& field) const {
     return is_pair() ? Vec3(share_a * field[a] + share_b * field[b]) : field[a];
   }
@@ -42,7 +45,7 @@ struct Structure::Data {
   const std::vector<Region> regions;
   const Loads loads;
   const StructureOptions options;
-  std::vector<std::array<const Hold*, 3>> hold_of_node;
+  std::vector<Holds> hold_of_node;
   Elements elements;
   std::vector<double> own_mass;
   std::vector<Vec3> x, v;

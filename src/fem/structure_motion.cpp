@@ -31,21 +31,21 @@ double damped_change(double kick, double f, double damping, double stiffness, do
 
 void Structure::Data::move(std::size_t i, double dt) {
   const Point& p = points[i];
-  // `of` takes the coordinate out of a nodal field; `follows` tells whether it moves with its hold.
-  const auto velocity_change = [&](const Inertance& inertance, const Vec3& f, bool follows, const auto& of) -> Vec3 {
+  // `of` takes the coordinate out of a nodal field; a mean follows its hold, a difference does not.
+  const auto velocity_change = [&](const Inertance& inertance, const Vec3& f, bool is_mean, const auto& of) -> Vec3 {
     const double kick = dt / inertance.mass, damping = loads.damping * inertance.own;
     Vec3 dv = kick * f;
     if (!p.is_held() && damping == 0.0) return dv;
     const Vec3 position = of(x), reference = of(mesh.nodes), velocity = of(v);
     for (int axis = 0; axis < 3; ++axis) {
-      const Hold* hold = p.hold[axis];
-      const double target = reference[axis] + (hold && follows ? displacement_of(*hold, axis) : 0.0);
+      const Hold* hold = is_mean || !p.may_turn(axis) ? p.hold[axis] : nullptr;
+      const double target = reference[axis] + (hold && is_mean ? displacement_of(*hold, axis) : 0.0);
       if (hold == nullptr) {
         dv[axis] = damped_change(kick, f[axis], damping, 0.0, 0.0, velocity[axis], dt);
       } else if (!hold->rigid) {
         dv[axis] = damped_change(kick, f[axis], damping + hold->damping * inertance.volume,
                                  hold->stiffness * inertance.volume, target - position[axis], velocity[axis], dt);
-      } else if (hold_moves[hold - loads.holds.data()] && follows) {  // to the target, by what move_node() does
+      } else if (hold_moves[hold - loads.holds.data()] && is_mean) {  // to the target, by what move_node() does
         dv[axis] = ((target - position[axis]) / dt - velocity[axis]) / (1.0 + options.dissipation);
       } else {
         dv[axis] = 0.0;
@@ -88,9 +88,10 @@ void Structure::Data::stop_rigidly_held() {
     for (int axis = 0; axis < 3; ++axis) {
       const Hold* hold = p.hold[axis];
       if (hold == nullptr || !hold->rigid || hold_moves[hold - loads.holds.data()]) continue;
-      hold_impulse[i][axis] = -p.mean.mass * p.mean_of(v)[axis];
-      v[p.a][axis] = 0.0;
-      if (p.is_pair()) v[p.b][axis] = 0.0;
+      const double mean = p.mean_of(v)[axis];
+      hold_impulse[i][axis] = -p.mean.mass * mean;
+      v[p.a][axis] = hold->hinged ? v[p.a][axis] - mean : 0.0;
+      if (p.is_pair()) v[p.b][axis] = hold->hinged ? v[p.b][axis] - mean : 0.0;
     }
   }
 }

@@ -4,7 +4,9 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <nlohmann/json.hpp>
+#include <numbers>
 #include <string>
 #include <vector>
 
@@ -109,6 +111,26 @@ TEST(Results, a_body_has_those_that_mean_something_for_it) {
   EXPECT_TRUE(has(rigid("t"), "slip_rms_stable") && !has(sheet, "slip_rms_stable"));
   EXPECT_TRUE(has(rigid("0"), "wake_length")) << "it stands still";
   EXPECT_FALSE(has(rigid("t"), "wake_length") || has(sheet, "wake_length"));
+}
+
+TEST(Results, an_oscillation_is_measured_within_the_window) {
+  ElasticBody flag;
+  flag.probes = {{.name = "amplitude", .statistic = "peak_to_peak"}, {.name = "frequency", .statistic = "strouhal"}};
+  Case c = case_of({"flag", 1.0, flag}, {4.0, 12.0});
+  c.reference_length = 0.5;
+  c.fluid.reference_velocity = 2.0;
+  // 0.8 Hz with a harmonic, about a mean; larger and slower before the window.
+  Trace trace = trace_of(
+      1200, 12.0, [](double t) { return t; }, "flag");
+  for (const double t : trace.time) {
+    const double phase = 2.0 * std::numbers::pi * 0.8 * t;
+    const double value = t < 4.0 ? 5.0 * std::sin(t) : 0.1 + 0.3 * std::sin(phase) + 0.02 * std::sin(3.0 * phase);
+    trace.column["flag.amplitude"].push_back(value);
+    trace.column["flag.frequency"].push_back(value);
+  }
+  const auto results = summarise(trace, c);
+  EXPECT_NEAR(*value_of(results, "amplitude"), 0.56, 1e-3);
+  EXPECT_NEAR(*value_of(results, "frequency"), 0.8 * 0.5 / 2.0, 1e-4);
 }
 
 TEST(Results, the_length_of_the_wake_is_that_at_the_end) {

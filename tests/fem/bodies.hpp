@@ -24,12 +24,15 @@ struct SolidOptions {
   double density = 0.0;
   double dissipation = 0.2, safety = 0.9;
   std::array<double, 2> volume_ratio{0.05, 20.0};
+  Hexahedron element = Hexahedron::assumed_strain;
 };
 
 /// All hexahedra of a mesh, of one material.
 inline Structure solid(Mesh mesh, const Material& material, const SolidOptions& options, std::vector<Hold> holds) {
-  return Structure(one_solid(std::move(mesh), material, options.density, std::move(holds),
-                             {options.dissipation, options.safety, options.volume_ratio}));
+  Model model = one_solid(std::move(mesh), material, options.density, std::move(holds),
+                          {options.dissipation, options.safety, options.volume_ratio});
+  std::get<Solid>(model.regions.front().kind).element = options.element;
+  return Structure(std::move(model));
 }
 
 /// The kinds of hexahedra, with their names.

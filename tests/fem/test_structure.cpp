@@ -150,6 +150,27 @@ TEST(Structure, pairs_with_their_own_mass_move_as_free_nodes) {
   for (std::size_t i = 0; i < v.size(); ++i) EXPECT_LT((nodes.position()[i] - pairs.position()[i]).norm(), 1e-13);
 }
 
+TEST(Structure, a_hinged_plate_swings_freely) {
+  const Mesh mesh = thin_plate();
+  Hold hinge{.rigid = true, .hinged = true};
+  for (std::size_t i = 0; i < mesh.nodes.size(); ++i) {
+    if (mesh.nodes[i].y() < -0.05 + 1e-9) hinge.nodes.push_back(static_cast<int>(i));
+  }
+  Structure plate = solid(mesh, neo_hookean, {.density = 1.0, .dissipation = 0.0}, {hinge});
+  plate.set_inertia(paired(plate, 1.0));
+  constexpr double rate = 5.0, time = 0.1;
+  const Vec3 axis_at(0.0, -0.05, 0.0);
+  std::vector<Vec3> v;
+  for (const Vec3& X : mesh.nodes) v.push_back(Vec3(0.0, 0.0, rate).cross(X - axis_at));
+  plate.set_state(mesh.nodes, v);
+  for (int step = 0; step < 20; ++step) plate.advance(time / 20, 0.0);
+  const Mat3 turn = rotation(rate * time, Vec3::UnitZ());
+  // It stretches by the centrifugal force, rho (omega L)^2 / (3 E) = 1e-4 of its length, and swings a little.
+  for (std::size_t i = 0; i < mesh.nodes.size(); ++i) {
+    EXPECT_LT((plate.position()[i] - axis_at - turn * (mesh.nodes[i] - axis_at)).norm(), 3e-4) << i;
+  }
+}
+
 TEST(Structure, mean_of_a_pair_accelerates_by_force_over_its_mass) {
   Structure plate = solid(thin_plate(), neo_hookean, {.density = 1.0, .dissipation = 0.0}, {});
   const Inertia inertia = paired(plate, 7.0);

@@ -78,6 +78,15 @@ TEST(StructureErrors, bad_inertia_is_named) {
                  "nodes 3 and 12 face each other but are not held alike");
 }
 
+TEST(StructureErrors, a_hinge_needs_a_pair_and_explicit_motion) {
+  const Hold hinge{.nodes = {3}, .rigid = true, .hinged = true};
+  Structure plate = solid(block({1.0, 1.0, 0.1}, {2, 2, 1}), neo_hookean, {.density = 1.0}, {hinge});
+  expect_message([&] { plate.set_inertia(plate.inertia()); }, "node 3 is held by a hinge, but faces no other node");
+  Model model = one_solid(block({1.0, 1.0, 0.1}, {2, 2, 1}), neo_hookean, 1.0, {hinge});
+  model.options.integrator = Integrator::implicit_scheme;
+  expect_message([&] { Structure{model}; }, "a hold is hinged, which implicit motion does not know");
+}
+
 TEST(StructureErrors, an_inverted_element_is_named_with_place_and_time) {
   Structure body = solid(bar(), neo_hookean, {.density = 1.0}, {});
   auto x = body.mesh().nodes;
