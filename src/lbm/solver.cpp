@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "core/error.hpp"
+#include "lbm/level_transfer.hpp"
 
 namespace drogue::lbm {
 namespace {
@@ -39,7 +40,6 @@ BasicSolver<S>::BasicSolver(amr::Forest forest, fluid::Specification specificati
       units_(units_of(specification_)),
       field_{MomentField<S>(forest_.size(), column_depths(forest_)),
              MomentField<S>(forest_.size(), column_depths(forest_))},
-      resample_(forest_),
       fill_boundary_(forest_, specification_, units_),
       forced_(is_forced(specification_)),
       force_(forest_),
@@ -52,9 +52,9 @@ BasicSolver<S>::BasicSolver(amr::Forest forest, fluid::Specification specificati
     l.dt = dx / units_.velocity;
     l.relaxation = {relaxation_time(specification_.viscosity * l.dt / (dx * dx)), specification_.hrr_sigma,
                     eddy_factor(specification_)};
-    if (level > 0) l.from_coarser = plan_interpolation(forest_, level);
+    if (level > 0) l.to_parents = plan_restriction(forest_, level);
     if (level < forest_.finest()) {
-      l.to_parents = plan_restriction(forest_, level);
+      interpolation_.emplace_back(forest_, level + 1);
       reflux_.emplace_back(forest_, specification_, level);
     }
     if (forced_) l.lead = half_kick(level, 0.0);
@@ -78,18 +78,28 @@ void BasicSolver<S>::advance(int level, fluid::FineStepHook* hook) {
   fill_boundary_.balance(level, 1.0 - 1.0 / l.relaxation.tau, field_[l.now], field_[1 - l.now]);
   if (forced_) accelerate(level);
   apply_sponge(level);
-  if (level == forest_.finest()) {
-    if (hook) couple(*hook);
-  } else {
-    for (const bool midway : {false, true}) {
-      interpolate_rims(level + 1, midway);
-      advance(level + 1, hook);
-      restrict_to_parents(level, 1 - l.now);
-    }
-    reflux_[level].settle(field_[l.now], l.relaxation, field_[1 - l.now]);
-  }
+  if (level < forest_.finest())
+    advance_twice(level + 1, hook);
+  else if (hook)
+    couple(*hook);
   l.now = 1 - l.now;
   l.time += l.dt;
+  if (level > 0) restrict_changed(level, field_[1 - levels_[level - 1].now]);
+}
+
+/// A level, within a step of the coarser one.
+template <class S>
+void BasicSolver<S>::advance_twice(int level, fluid::FineStepHook* hook) {
+  const Level &fine = levels_[level], &coarse = levels_[level - 1];
+  Interpolation<S>& interpolation = interpolation_[level - 1];
+  MomentField<S>& coarse_end = field_[1 - coarse.now];
+  interpolation.fill_rims(conversion(level - 1, level), field_[fine.now]);
+  advance(level, hook);
+  interpolation.take_half_way(coarse_end);
+  interpolation.fill_rims(conversion(level - 1, level), field_[fine.now]);
+  advance(level, hook);
+  reflux_[level - 1].settle(field_[coarse.now], coarse.relaxation, coarse_end);
+  interpolation.take_present(coarse_end);
 }
 
 template <class S>
@@ -98,14 +108,26 @@ void BasicSolver<S>::stream_and_collide(int level) {
   const auto leaves = forest_.range(level, amr::Kind::leaf);
   float max_speed_squared = 0.0f;
   bool diverged = false;
-#pragma omp parallel for schedule(static) reduction(max : max_speed_squared) reduction(|| : diverged)
-  for (int id = leaves.begin; id < leaves.end; ++id) {
-    BlockNeighbourhood<S> blocks = neighbourhood(id, l.now);
-    const BlockNeighbourhood<S> next = neighbourhood(std::min(id + 1, leaves.end - 1), l.now);
-    blocks.next = &next;
-    const BlockRecord record = update_(blocks, l.relaxation);
-    max_speed_squared = std::max(max_speed_squared, record.max_speed_squared);
-    diverged = diverged || record.diverged;
+#pragma omp parallel reduction(max : max_speed_squared) reduction(|| : diverged)
+  {
+    const auto restriction = level > 0 ? std::make_unique<Restriction<S>>(forest_) : nullptr;
+#pragma omp for schedule(static)
+    for (int id = leaves.begin; id < leaves.end; ++id) {
+      BlockNeighbourhood<S> blocks = neighbourhood(id, l.now);
+      const BlockNeighbourhood<S> next = neighbourhood(std::min(id + 1, leaves.end - 1), l.now);
+      blocks.next = &next;
+      // a body force has yet to act
+      const bool at_rim = level > 0 && !forced_ && !l.to_parents.faces_of(id).empty();
+      if (at_rim) {
+        restriction->begin(id, l.to_parents.faces_of(id));
+        blocks.restriction = restriction.get();
+      }
+      const BlockRecord record = update_(blocks, l.relaxation);
+      if (at_rim) restriction->write(conversion(level, level - 1), field_[1 - levels_[level - 1].now]);
+      field_[1 - l.now].forget_changes(id);
+      max_speed_squared = std::max(max_speed_squared, record.max_speed_squared);
+      diverged = diverged || record.diverged;
+    }
   }
   if (diverged) report_divergence(level);
   statistics_.cell_updates += std::int64_t{leaves.size()} * amr::block_cells;
@@ -149,32 +171,33 @@ void BasicSolver<S>::apply_sponge(int level) {
   }
 }
 
-/// At the start of the coarse step (`midway` false) everything is taken at its time; half-way through, coarse leaves
-/// are averaged over the step while parents have just been restricted from the fine leaves.
+/// Once more for the leaves that something has changed since they were updated.
 template <class S>
-void BasicSolver<S>::interpolate_rims(int level, bool midway) {
-  const Level &fine = levels_[level], &coarse = levels_[level - 1];
-  const MomentField<S>&start = field_[coarse.now], &end = field_[1 - coarse.now];
-  const SourceFields<S> source{start, midway ? &end : nullptr, midway ? end : start};
-  const Conversion to_fine = conversion(level - 1, level);
-  const int targets = static_cast<int>(fine.from_coarser.first.size()) - 1;
-#pragma omp parallel for schedule(dynamic, 4)
-  for (int i = 0; i < targets; ++i)
-    for (int j = fine.from_coarser.first[i]; j < fine.from_coarser.first[i + 1]; ++j)
-      resample_(fine.from_coarser.job[j], source, to_fine, field_[fine.now]);
+void BasicSolver<S>::restrict_changed(int level, MomentField<S>& coarse) {
+  MomentField<S>& fine = field_[levels_[level].now];
+  const auto leaves = forest_.range(level, amr::Kind::leaf);
+  const RestrictionPlan& plan = levels_[level].to_parents;
+#pragma omp parallel
+  {
+    const auto restriction = std::make_unique<Restriction<S>>(forest_);
+#pragma omp for schedule(dynamic, 4)
+    for (int id = leaves.begin; id < leaves.end; ++id) {
+      if (!fine.changed(id)) continue;
+      fine.forget_changes(id);
+      if (plan.faces_of(id).empty()) continue;
+      restriction->restrict_stored(fine, id, plan.faces_of(id), conversion(level, level - 1), coarse);
+    }
+  }
 }
 
+/// From a state of leaves alone.
 template <class S>
-void BasicSolver<S>::restrict_to_parents(int level, int field) {
-  const Level &coarse = levels_[level], &fine = levels_[level + 1];
-  const MomentField<S>& from = field_[fine.now];
-  const SourceFields<S> source{from, nullptr, from};
-  const Conversion to_coarse = conversion(level + 1, level);
-  const int targets = static_cast<int>(coarse.to_parents.first.size()) - 1;
-#pragma omp parallel for schedule(dynamic, 1)
-  for (int i = 0; i < targets; ++i)
-    for (int j = coarse.to_parents.first[i]; j < coarse.to_parents.first[i + 1]; ++j)
-      resample_(coarse.to_parents.job[j], source, to_coarse, field_[field]);
+void BasicSolver<S>::join_levels() {
+  for (int level = forest_.finest(); level > 0; --level) {
+    MomentField<S>& coarse = field_[levels_[level - 1].now];
+    restrict_changed(level, coarse);
+    interpolation_[level - 1].take_present(coarse);
+  }
 }
 
 /// Pneq = -2 rho c_s^2 tau S dt: per step of each level, so it scales with tau dt. Levels meet at the time of the
@@ -329,7 +352,7 @@ void BasicSolver<S>::transfer_state(Archive& archive) {
     if (forced_) l.lead = half_kick(level, l.time);
     if (level < forest_.finest()) archive.transfer(name + "/interface", reflux_[level]);
   }
-  for (int level = forest_.finest() - 1; level >= 0; --level) restrict_to_parents(level, levels_[level].now);
+  join_levels();
   archive.transfer("boundaries", fill_boundary_);
   archive.transfer("cell_updates", statistics_.cell_updates);
   archive.transfer("max_mach", statistics_.max_mach);

@@ -6,7 +6,7 @@
 #include <array>
 
 #include "fluid/specification.hpp"
-#include "lbm/moments.hpp"
+#include "lbm/restriction.hpp"
 
 namespace drogue::lbm {
 
@@ -38,6 +38,7 @@ struct BlockNeighbourhood {
   std::byte *target, *target_columns;
   std::byte* target_inner = nullptr;  ///< MomentField::inner_columns, or null if none are kept
   ColumnDepth depth{1, 1};
+  Restriction<S>* restriction = nullptr;  ///< begun, to be given the rows; null if no parent needs them
   const BlockNeighbourhood* next = nullptr;  ///< the block after this one, whose rows are prefetched meanwhile
 };
 

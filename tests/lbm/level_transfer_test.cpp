@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <memory>
 
 #include "lbm/level_transfer.hpp"
 
@@ -42,14 +43,15 @@ void fill(const amr::Forest& forest, Field& field, amr::Kind kind) {
 }
 
 /// Fills the rims of the coarser level, then those of the finer one.
-void transfer(const amr::Forest& forest, Field& field, float up, float down) {
-  const Resampler<FloatStress> resample(forest);
-  const SourceFields<FloatStress> now{field, nullptr, field};
-  const TransferPlan restriction = plan_restriction(forest, 0), interpolation = plan_interpolation(forest, 1);
-  ASSERT_FALSE(restriction.job.empty());
-  ASSERT_FALSE(interpolation.job.empty());
-  for (const ResampleJob& job : restriction.job) resample(job, now, {up}, field);
-  for (const ResampleJob& job : interpolation.job) resample(job, now, {down}, field);
+void transfer(const amr::Forest& forest, Field& field, double up, double down) {
+  const RestrictionPlan plan = plan_restriction(forest, 1);
+  const auto restriction = std::make_unique<Restriction<FloatStress>>(forest);
+  const auto leaves = forest.range(1, amr::Kind::leaf);
+  for (int leaf = leaves.begin; leaf < leaves.end; ++leaf)
+    restriction->restrict_stored(field, leaf, plan.faces_of(leaf), {up}, field);
+  Interpolation<FloatStress> interpolation(forest, 1);
+  interpolation.take_present(field);
+  interpolation.fill_rims({down}, field);
 }
 
 /// A moment of a neighbour at `offset`, as the update of a block finds it: in columns across x faces, else in rows.
@@ -84,7 +86,7 @@ TEST(LevelTransfer, every_rim_a_leaf_streams_from_reproduces_cubic_fields) {
   const amr::Forest forest = l_shaped();
   Field field(forest.size(), column_depths(forest));
   fill(forest, field, amr::Kind::leaf);
-  const float up = 1.0f, down = 1.5f;
+  const double up = 1.0, down = 1.5;
   transfer(forest, field, up, down);
   for (const int level : {0, 1}) {
     double largest = 0.0;  // each moment over its own size
@@ -106,7 +108,7 @@ TEST(LevelTransfer, boundary_blocks_find_the_rims_they_mirror_in_rows) {
                            amr::refine_box({Vec3(0.34, 0.34, 0.34), Vec3(0.65, 1.0, 0.65)}, dx, dx / 2));
   Field field(forest.size(), column_depths(forest));
   fill(forest, field, amr::Kind::leaf);
-  transfer(forest, field, 1.0f, 1.0f);
+  transfer(forest, field, 1.0, 1.0);
   for (const int level : {0, 1})
     for_each_rim_cell(forest, level, [&](int id, const Index3& offset, const Index3& cell) {
       if (offset[1] != 0 || offset[2] != 0 || cell[1] != n - 1) return;

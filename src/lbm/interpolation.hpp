@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Cubic interpolation of coarse leaves and parents onto the rims of the ghosts of the next finer level, in two stages:
+// layers of a block are combined along the normal of a rim, once for all rims that read them; the sums, planes of 16
+// lines, are then combined in the plane. Between two fine steps leaves are taken half-way through the coarse step,
+// parents as they have just been restricted.
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "lbm/lines.hpp"
+
+namespace drogue::lbm {
+
+/// The `lines` of a block with its layers from `first_layer` along `normal` (0 x, 1 y, 2 z) summed with these weights.
+struct LayerSum {
+  int block, normal, first_layer, taps;
+  std::array<double, interpolation_taps> weight;
+  Range lines;
+};
+
+/// Part of the rim of a ghost: of its layer `layer` along `normal` the `lines` that stand side by side across, of each
+/// the `cells` along.
+struct RimJob {
+  int target, normal, layer;
+  Range lines, cells;
+  int across_rule, along_rule;                          ///< see axis_of_rule()
+  std::array<std::array<std::array<int, 2>, 2>, 2> sum;  ///< [across][along] of the pairs: two terms, or one and none
+  bool also_rows;                                        ///< of columns: write the cells of the rows as well
+};
+
+/// Jobs sorted by target; `first[i]` .. `first[i + 1]` share the i-th target, so targets may be filled in parallel.
+struct InterpolationPlan {
+  std::vector<LayerSum> sum;
+  std::vector<RimJob> job;
+  std::vector<int> first{0};
+};
+
+inline constexpr int cubic_rules = 4;
+/// Rule 2 * half + available of cubic_axis().
+inline Axis axis_of_rule(int rule) { return cubic_axis(rule / 2, rule % 2); }
+
+/// Onto the ghosts of one level.
+template <class S>
+class Interpolation {
+ public:
+  Interpolation(const amr::Forest& forest, int level);
+
+  /// Sums the layers of the coarse field at the start of its step.
+  void take_present(const MomentField<S>& coarse);
+  /// Half-way: of leaves the mean of the present and of `coarse_end`; of parents `coarse_end`, in which they stand at
+  /// the time of the fine level.
+  void take_half_way(const MomentField<S>& coarse_end);
+  /// Fills the rims of the ghosts in `fine` from what was taken last.
+  void fill_rims(const Conversion& conversion, MomentField<S>& fine) const;
+
+ private:
+  using Real = typename S::Real;
+  using Line = std::array<Vec<Real>, moments>;
+  using Plane = std::array<Line, amr::block_size>;
+  enum class Time { present, half_way };
+
+  void take(const MomentField<S>& coarse, Time time);
+  void combine(const LayerSum& sum, const MomentField<S>& field, bool mean, Plane& plane) const;
+  void fill(const RimJob& job, const Conversion& conversion, MomentField<S>& fine) const;
+
+  const amr::Forest& forest_;
+  const InterpolationPlan plan_;
+  const std::array<Stencil<Real>, cubic_rules> stencil_;
+  std::vector<Plane> present_, half_way_;  // by sum
+  Time taken_ = Time::present;
+};
+
+}  // namespace drogue::lbm
