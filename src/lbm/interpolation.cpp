@@ -16,11 +16,10 @@ Interpolation<S>::Interpolation(const amr::Forest& forest, int level)
       plan_(plan_interpolation(forest, level)),
       stencil_{Stencil<Real>(axis_of_rule(0)), Stencil<Real>(axis_of_rule(1)), Stencil<Real>(axis_of_rule(2)),
                Stencil<Real>(axis_of_rule(3))},
-      present_(plan_.sum.size()),
-      half_way_(plan_.sum.size()) {}
+      plane_{std::vector<Plane>(plan_.sum.size()), std::vector<Plane>(plan_.sum.size())} {}
 
 template <class S>
-void Interpolation<S>::combine(const LayerSum& sum, const MomentField<S>& field, bool mean, Plane& plane) const {
+void Interpolation<S>::combine(const LayerSum& sum, const MomentField<S>& field, Plane& plane) const {
   using Layout = RowLayout<S>;
   for (int i = sum.lines.begin; i < sum.lines.end; ++i) {
     std::array<const std::byte*, interpolation_taps> line;
@@ -28,33 +27,41 @@ void Interpolation<S>::combine(const LayerSum& sum, const MomentField<S>& field,
     for (int m = 0; m < moments; ++m) {
       Vec<Real> v{};
       for (int k = 0; k < sum.taps; ++k) v += static_cast<Real>(sum.weight[k]) * Layout::load_scaled(line[k], m);
-      plane[i][m] = mean ? Real(0.5) * (plane[i][m] + v) : v;
+      plane[i][m] = v;
     }
   }
 }
 
 template <class S>
-void Interpolation<S>::take(const MomentField<S>& coarse, Time time) {
-  std::vector<Plane>& to = time == Time::present ? present_ : half_way_;
+template <class F>
+void Interpolation<S>::for_each_sum(const F& f) const {
   const int count = static_cast<int>(plan_.sum.size());
 #pragma omp parallel for schedule(static)
-  for (int i = 0; i < count; ++i) {
-    const LayerSum& sum = plan_.sum[i];
-    const bool mean = time == Time::half_way && forest_.block(sum.block).kind == amr::Kind::leaf;
-    if (mean) to[i] = present_[i];
-    combine(sum, coarse, mean, to[i]);
-  }
-  taken_ = time;
+  for (int i = 0; i < count; ++i) f(plan_.sum[i], i);
 }
 
 template <class S>
-void Interpolation<S>::take_present(const MomentField<S>& coarse) {
-  take(coarse, Time::present);
+void Interpolation<S>::start(const MomentField<S>& coarse) {
+  for_each_sum([&](const LayerSum& sum, int i) { combine(sum, coarse, plane_[now_][i]); });
 }
 
 template <class S>
 void Interpolation<S>::take_half_way(const MomentField<S>& coarse_end) {
-  take(coarse_end, Time::half_way);
+  for_each_sum([&](const LayerSum& sum, int i) {
+    Plane &now = plane_[now_][i], &end = plane_[1 - now_][i];
+    if (!is_leaf(sum)) return combine(sum, coarse_end, now);
+    combine(sum, coarse_end, end);
+    for (int line = sum.lines.begin; line < sum.lines.end; ++line)
+      for (int m = 0; m < moments; ++m) now[line][m] = Real(0.5) * (now[line][m] + end[line][m]);
+  });
+}
+
+template <class S>
+void Interpolation<S>::take_end(const MomentField<S>& coarse_end) {
+  now_ = 1 - now_;
+  for_each_sum([&](const LayerSum& sum, int i) {
+    if (!is_leaf(sum)) combine(sum, coarse_end, plane_[now_][i]);
+  });
 }
 
 /// Lines are combined along themselves first, then across. Flattened, or GCC 12 passes vectors through memory from call
@@ -67,10 +74,9 @@ template <class S>
   constexpr int taps = interpolation_taps;
   const Stencil<Real>&across = stencil_[job.across_rule], &along = stencil_[job.along_rule];
   const int first = across.start[job.lines.begin], end = across.start[job.lines.end - 1] + taps;
-  const std::vector<Plane>& plane = taken_ == Time::present ? present_ : half_way_;
   const auto term = [&](const std::array<int, 2>& sums, int line, int m) -> V {
-    const V v = plane[sums[0]][line][m];
-    return sums[1] == amr::none ? v : v + plane[sums[1]][line][m];
+    const V v = plane_[now_][sums[0]][line][m];
+    return sums[1] == amr::none ? v : v + plane_[now_][sums[1]][line][m];
   };
   V combined[n][moments];
   for (int i = first; i < end; ++i)
@@ -80,18 +86,20 @@ template <class S>
       for (int k = 1; k < taps; ++k) v += along.lane_weight[k] * pick<Real>(low, high, along.lane[k]);
       combined[i - first][m] = v;
     }
+  const MomentConversion<Real> convert(conversion);
   const IndexVec<Real> wanted = (lane_numbers<Real> >= job.cells.begin) & (lane_numbers<Real> < job.cells.end);
   const bool whole = job.cells.begin == 0 && job.cells.end == n;
   for (int i = job.lines.begin; i < job.lines.end; ++i) {
     std::byte* to = line_of(fine, job.target, job.normal, job.layer, i);
     const auto* from = combined + across.start[i] - first;
+#pragma GCC unroll 10
     for (int m = 0; m < moments; ++m) {
       V v = across.weight[i][0] * from[0][m];
       for (int k = 1; k < taps; ++k) v += across.weight[i][k] * from[k][m];
-      v = static_cast<Real>(conversion.factor(m)) * v + static_cast<Real>(conversion.shift(m));
+      v = convert.factor[m] * v + convert.shift[m];
       Layout::store_scaled(to, m, whole ? v : wanted ? v : Layout::load_scaled(to, m));
     }
-    copy_line(fine, job.target, job.normal, job.layer, i, job.cells, job.also_rows);
+    if (job.copy) copy_line(fine, job.target, job.normal, job.layer, i, job.cells);
   }
 }
 

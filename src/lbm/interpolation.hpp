@@ -26,7 +26,7 @@ struct RimJob {
   Range lines, cells;
   int across_rule, along_rule;                          ///< see axis_of_rule()
   std::array<std::array<std::array<int, 2>, 2>, 2> sum;  ///< [across][along] of the pairs: two terms, or one and none
-  bool also_rows;                                        ///< of columns: write the cells of the rows as well
+  bool copy;                                            ///< see copy_line()
 };
 
 /// Jobs sorted by target; `first[i]` .. `first[i + 1]` share the i-th target, so targets may be filled in parallel.
@@ -46,11 +46,13 @@ class Interpolation {
  public:
   Interpolation(const amr::Forest& forest, int level);
 
-  /// Sums the layers of the coarse field at the start of its step.
-  void take_present(const MomentField<S>& coarse);
-  /// Half-way: of leaves the mean of the present and of `coarse_end`; of parents `coarse_end`, in which they stand at
-  /// the time of the fine level.
+  /// Takes the coarse field between two of its steps, from a state of which nothing has been taken yet.
+  void start(const MomentField<S>& coarse);
+  /// Half-way through a step: of leaves the mean of what was taken last and of their end in `coarse_end`, of parents
+  /// `coarse_end`, where they stand at the time of the fine level.
   void take_half_way(const MomentField<S>& coarse_end);
+  /// The end of the step, of which take_half_way() has seen the leaves.
+  void take_end(const MomentField<S>& coarse_end);
   /// Fills the rims of the ghosts in `fine` from what was taken last.
   void fill_rims(const Conversion& conversion, MomentField<S>& fine) const;
 
@@ -58,17 +60,19 @@ class Interpolation {
   using Real = typename S::Real;
   using Line = std::array<Vec<Real>, moments>;
   using Plane = std::array<Line, amr::block_size>;
-  enum class Time { present, half_way };
 
-  void take(const MomentField<S>& coarse, Time time);
-  void combine(const LayerSum& sum, const MomentField<S>& field, bool mean, Plane& plane) const;
+  template <class F>
+  void for_each_sum(const F& f) const;
+  bool is_leaf(const LayerSum& sum) const { return forest_.block(sum.block).kind == amr::Kind::leaf; }
+  void combine(const LayerSum& sum, const MomentField<S>& field, Plane& plane) const;
   void fill(const RimJob& job, const Conversion& conversion, MomentField<S>& fine) const;
 
   const amr::Forest& forest_;
   const InterpolationPlan plan_;
   const std::array<Stencil<Real>, cubic_rules> stencil_;
-  std::vector<Plane> present_, half_way_;  // by sum
-  Time taken_ = Time::present;
+  std::array<std::vector<Plane>, 2> plane_;  // by sum
+  int now_ = 0;                              // which of them stands at the time of the fine level; the other, of leaves,
+                                             // at the end of the coarse step
 };
 
 }  // namespace drogue::lbm

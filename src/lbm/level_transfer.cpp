@@ -195,7 +195,7 @@ InterpolationPlan plan_interpolation(const amr::Forest& forest, int level) {
       const int normal = normal_to(offset), across = across_axis(normal), along = along_axis(normal);
       const auto range = [&, &box = box](int a) { return Range{box.begin[a], box.end[a]}; };
       RimJob job{id,          normal, box.begin[normal], range(across), range(along), rule[across], rule[along], {},
-                 touches_boundary(forest, id)};
+                 normal == 2 || (normal == 0 && touches_boundary(forest, id))};
       const Axis axis = axis_of_rule(job.across_rule);
       const int first = axis.start[job.lines.begin], end = axis.start[job.lines.end - 1] + axis.taps;
       for (int i = 0; i < 8; ++i) {
@@ -220,9 +220,12 @@ InterpolationPlan plan_interpolation(const amr::Forest& forest, int level) {
 }
 
 RestrictionPlan plan_restriction(const amr::Forest& forest, int level) {
-  const auto leaves = forest.range(level, amr::Kind::leaf), parents = forest.range(level - 1, amr::Kind::parent);
-  const std::vector<bool> also_rows = read_along_x(forest, level - 1);
-  RestrictionPlan plan{leaves.begin, std::vector<std::vector<RimFace>>(leaves.size())};
+  const auto parents = forest.range(level - 1, amr::Kind::parent);
+  const std::vector<bool> along_x = read_along_x(forest, level - 1);
+  std::vector<bool> in_columns(forest.size(), false);  // blocks whose columns are interpolated
+  for (const LayerSum& sum : plan_interpolation(forest, level).sum)
+    if (sum.normal == 0) in_columns[sum.block] = true;
+  RestrictionPlan plan(forest, level);
   for (int id = parents.begin; id < parents.end; ++id)
     for (const auto& [offset, box] : rims(leaf_offsets(forest, id, 3), depth, n))
       for (int octant = 0; octant < 8; ++octant) {
@@ -230,11 +233,19 @@ RestrictionPlan plan_restriction(const amr::Forest& forest, int level) {
         for (int a = 0; a < 3; ++a) touches &= offset[a] == 0 || (octant >> a & 1) == (offset[a] > 0);
         if (!touches) continue;
         const int normal = normal_to(offset), face = 2 * normal + (offset[normal] > 0);
-        auto& faces = plan.faces[forest.block(id).child[octant] - leaves.begin];
+        auto& faces = plan[forest.block(id).child[octant]];
         if (std::ranges::any_of(faces, [&](const RimFace& rim) { return rim.face == face; })) continue;
-        faces.push_back({face, also_rows[id] || touches_boundary(forest, id)});
+        const bool copy = normal == 2 || (normal == 1 ? in_columns[id] : along_x[id] || touches_boundary(forest, id));
+        faces.push_back({face, copy});
       }
   return plan;
+}
+
+bool edge_is_in_rows(const amr::Forest& forest, int id, const Index3& towards) {
+  const amr::Kind kind = forest.block(id).kind;
+  if (kind != amr::Kind::ghost && kind != amr::Kind::parent) return false;
+  return kind_at(forest, id, {towards[0], 0, 0}) != amr::Kind::leaf &&
+         kind_at(forest, id, {0, towards[1], 0}) == amr::Kind::leaf;
 }
 
 std::vector<ColumnDepth> column_depths(const amr::Forest& forest) {
@@ -250,7 +261,7 @@ std::vector<ColumnDepth> column_depths(const amr::Forest& forest) {
     const RestrictionPlan restriction = plan_restriction(forest, level);
     const auto leaves = forest.range(level, amr::Kind::leaf);
     for (int leaf = leaves.begin; leaf < leaves.end; ++leaf)
-      for (const RimFace& rim : restriction.faces_of(leaf))
+      for (const RimFace& rim : restriction[leaf])
         if (rim.face < 2) keep(forest.block(leaf).parent, rim.face == 0 ? depth - 1 : n - depth);
   }
   return result;

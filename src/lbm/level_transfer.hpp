@@ -10,14 +10,18 @@
 namespace drogue::lbm {
 
 /// Rims of the ghosts of `level` that touch a leaf across a face or an edge, from their hosts on `level` - 1. (No
-/// population crosses a corner.) Rims at y and z faces are rows, with their ends as columns; rims at x faces are
-/// columns, also written as rows where a boundary block mirrors them.
+/// population crosses a corner.) Rims at y and z faces are rows, those at z faces with their ends as columns; rims at x
+/// faces are columns, also written as rows where a boundary block mirrors them.
 InterpolationPlan plan_interpolation(const amr::Forest& forest, int level);
 
 /// Of the leaves of `level`, the faces under the two layers of their parents that lie against leaves of `level` - 1.
 /// Rows and columns as above; x faces are also written as rows where the interpolation of a y or z face reads across
-/// them (concave edges of the fine region).
+/// them (concave edges of the fine region), and y faces as columns where that of an x face does.
 RestrictionPlan plan_restriction(const amr::Forest& forest, int level);
+
+/// Whether the rim of a ghost or parent along the edge towards an offset in x and y is to be found in rows: where a y
+/// face alone brings it about.
+bool edge_is_in_rows(const amr::Forest& forest, int id, const Index3& towards);
 
 /// How many layers of columns each block must keep for the transfer between levels.
 std::vector<ColumnDepth> column_depths(const amr::Forest& forest);

@@ -30,10 +30,10 @@ std::byte* line_of(MomentField<S>& field, int id, int normal, int layer, int acr
   return const_cast<std::byte*>(line_of(std::as_const(field), id, normal, layer, across));
 }
 
-/// Lines whose cells `along` have been written, copied to wherever else they are kept: the ends of rows to columns;
-/// columns to rows only if `also_rows`.
+/// Copies cells `along` of a line that has been written to where else they are kept: the ends of a row to columns, a
+/// column to rows.
 template <class S>
-void copy_line(MomentField<S>& field, int id, int normal, int layer, int across, const Range& along, bool also_rows) {
+void copy_line(MomentField<S>& field, int id, int normal, int layer, int across, const Range& along) {
   using Layout = RowLayout<S>;
   if (normal > 0) {
     const int y = normal == 1 ? layer : across, z = normal == 1 ? across : layer;
@@ -41,7 +41,7 @@ void copy_line(MomentField<S>& field, int id, int normal, int layer, int across,
       if (x < along.begin || x >= along.end) return;
       Layout::copy_element(field.row(id, y, z), x, field.column(id, x, z), y);
     });
-  } else if (also_rows) {
+  } else {
     for (int y = along.begin; y < along.end; ++y)
       Layout::copy_element(field.column(id, layer, across), y, field.row(id, y, across), layer);
   }
@@ -51,10 +51,19 @@ void copy_line(MomentField<S>& field, int id, int normal, int layer, int across,
 struct Conversion {
   double stress_factor = 1.0;          ///< of the stress, which scales with tau and the time step
   Vec3 velocity_shift = Vec3::Zero();  ///< added to the velocity, lattice units (lbm/body_force.cpp)
+};
 
-  /// Of a moment.
-  double factor(int m) const { return m < pxx ? 1.0 : stress_factor; }
-  double shift(int m) const { return m >= ux && m <= uz ? velocity_shift[m - ux] : 0.0; }
+/// The same by moment: m becomes factor[m] m + shift[m].
+template <class Real>
+struct MomentConversion {
+  std::array<Real, moments> factor, shift;
+
+  explicit MomentConversion(const Conversion& c) {
+    for (int m = 0; m < moments; ++m) {
+      factor[m] = static_cast<Real>(m < pxx ? 1.0 : c.stress_factor);
+      shift[m] = static_cast<Real>(m >= ux && m <= uz ? c.velocity_shift[m - ux] : 0.0);
+    }
+  }
 };
 
 /// An axis in the precision of the state, with lane numbers for lines that are combined along themselves.

@@ -289,6 +289,26 @@ class MomentField {
     return double{sum} - double{before};
   }
 
+  /// The same for a line of 16 cells at a face of a leaf, 0 to 5: number `r` of the columns at an x face, of the rows at
+  /// the others. Returns the sum of the changes.
+  double add_at_face(int id, int face, int r, int m, Real value) {
+    changed_[id] = true;
+    const int axis = face / 2, layer = face & 1 ? amr::block_size - 1 : 0;
+    const int y = axis == 1 ? layer : r, z = axis == 2 ? layer : r;
+    Real* line = Layout::macro(axis == 0 ? column(id, layer, z) : row(id, y, z), m);
+    double sum = 0.0;
+    for (int i = 0; i < lanes; ++i) {
+      const Real before = line[i];
+      line[i] += value;
+      sum += double{line[i]} - double{before};
+    }
+    if (axis == 0)
+      for (int i = 0; i < lanes; ++i) Layout::macro(row(id, i, z), m)[layer] = line[i];
+    else
+      for_each_column(id, [&](int x) { Layout::macro(column(id, x, z), m)[y] = line[x]; });
+    return sum;
+  }
+
   void refresh_columns(int id) {
     changed_[id] = true;
     for (int side = 0; side < 2; ++side) {
@@ -315,7 +335,7 @@ class MomentField {
     });
   }
 
-  /// Whether one of the three above has been called since forget_changes().
+  /// Whether one of the four above has been called since forget_changes().
   bool changed(int id) const { return changed_[id]; }
   void forget_changes(int id) { changed_[id] = false; }
 

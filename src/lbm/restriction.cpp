@@ -8,12 +8,6 @@ namespace {
 
 constexpr int n = amr::block_size, half = n / 2, taps = restriction_taps;
 
-/// Which tap of the stencils at a face a layer is, 0 to taps - 1, or another number.
-constexpr int tap_of(int side, int layer) { return side ? layer - (n - taps) : layer; }
-
-/// Of a child: the output, 0 to 7, that is layer `r` of the rim at a face.
-constexpr int output_of(int side, int r) { return side ? half - 2 + r : r; }
-
 }  // namespace
 
 template <class S>
@@ -29,31 +23,6 @@ void Restriction<S>::begin(int leaf, std::span<const RimFace> faces) {
     if (rim.face / 2 == 2) z_rows_ |= rows;
   }
   x_faces_ = wanted_[0] || wanted_[1];
-}
-
-/// Adds a layer of a line to the sums, which its first one starts.
-template <class S>
-void Restriction<S>::accumulate(int face, int line, int layer, const Line& values) {
-  const int side = face & 1, k = tap_of(side, layer);
-  if (k < 0 || k >= taps) return;
-  for (int r = 0; r < layers; ++r) {
-    const Real weight = stencil_.weight[output_of(side, r)][k];
-    Line& sum = sum_[face][line][r];
-    for (int m = 0; m < moments; ++m) sum[m] = k == 0 ? weight * values[m] : sum[m] + weight * values[m];
-  }
-}
-
-template <class S>
-[[gnu::noinline]] void Restriction<S>::add(const Row<Real>& row, int y, int z) {
-  Line stored = row.m;
-  for (int m = pxx; m < moments; ++m) stored[m] = S::as_stored(row.m[m]);
-  for (int side = 0; side < 2; ++side) {
-    if (wanted_[2 + side]) accumulate(2 + side, z, y, stored);
-    if (wanted_[4 + side]) accumulate(4 + side, y, z, stored);
-    if (!wanted_[side]) continue;
-    for (int m = 0; m < moments; ++m) end_[side].put(m, y, stored[m]);
-    if (y == n - 1) add_columns(side, z);
-  }
 }
 
 template <class S>
@@ -79,6 +48,7 @@ void Restriction<S>::write_face(const RimFace& rim, const Conversion& conversion
   const int across_half = leaf.index[across_axis(normal)] & 1, along_half = leaf.index[along_axis(normal)] & 1;
   const Range cells{along_half * half, along_half * half + half};
   const auto& lines = sum_[rim.face];
+  const MomentConversion<Real> convert(conversion);
   const IndexVec<Real> second_layer = lane_numbers<Real> >= half ? IndexVec<Real>{} + n : IndexVec<Real>{};
   std::array<IndexVec<Real>, taps> lane;
   std::array<V, taps> lane_weight;
@@ -95,6 +65,7 @@ void Restriction<S>::write_face(const RimFace& rim, const Conversion& conversion
     for (int r = 0; r < layers; ++r)
       to[r] = line_of(coarse, leaf.parent, normal, (side ? n - layers : 0) + r, line);
     const auto* from = &lines[stencil_.start[i]];
+#pragma GCC unroll 10
     for (int m = 0; m < moments; ++m) {
       V across[layers];
       for (int r = 0; r < layers; ++r) {
@@ -103,12 +74,12 @@ void Restriction<S>::write_face(const RimFace& rim, const Conversion& conversion
       }
       V v = lane_weight[0] * pick<Real>(across[0], across[1], lane[0]);
       for (int k = 1; k < taps; ++k) v += lane_weight[k] * pick<Real>(across[0], across[1], lane[k]);
-      v = static_cast<Real>(conversion.factor(m)) * v + static_cast<Real>(conversion.shift(m));
+      v = convert.factor[m] * v + convert.shift[m];
       Layout::store_half_scaled(to[0], m, along_half, low_half<Real>(v));
       Layout::store_half_scaled(to[1], m, along_half, high_half<Real>(v));
     }
-    for (int r = 0; r < layers; ++r)
-      copy_line(coarse, leaf.parent, normal, (side ? n - layers : 0) + r, line, cells, rim.also_rows);
+    if (!rim.copy) continue;
+    for (int r = 0; r < layers; ++r) copy_line(coarse, leaf.parent, normal, (side ? n - layers : 0) + r, line, cells);
   }
 }
 

@@ -8,23 +8,18 @@
 #include <span>
 #include <vector>
 
+#include "lbm/by_leaf.hpp"
 #include "lbm/lines.hpp"
 
 namespace drogue::lbm {
 
 /// A face of a leaf whose cells a parent needs.
 struct RimFace {
-  int face;        ///< 0 to 5
-  bool also_rows;  ///< of an x face: write the rows of the parent as well as its columns
+  int face;   ///< 0 to 5
+  bool copy;  ///< the lines of the parent, see copy_line()
 };
 
-/// Those of each leaf of a level.
-struct RestrictionPlan {
-  int first_leaf = 0;
-  std::vector<std::vector<RimFace>> faces;
-
-  std::span<const RimFace> faces_of(int leaf) const { return faces[leaf - first_leaf]; }
-};
+using RestrictionPlan = ByLeaf<RimFace>;
 
 /// Restricts one leaf at a time: begin(), add() for all rows of each plane in turn, write(). About 140 KB.
 template <class S>
@@ -48,6 +43,13 @@ class Restriction {
   using Line = std::array<Vec<Real>, moments>;
   using Lines = std::array<Line, layers>;
 
+  /// Which tap of the stencils at a face a layer is, 0 to taps - 1, or another number.
+  static constexpr int tap_of(int side, int layer) {
+    return side ? layer - (amr::block_size - restriction_taps) : layer;
+  }
+  /// Of a child: the output, 0 to 7, that is layer `r` of the rim at a face.
+  static constexpr int output_of(int side, int r) { return side ? amr::block_size / 2 - layers + r : r; }
+
   void accumulate(int face, int line, int layer, const Line& values);
   void add_columns(int side, int z);
   void write_face(const RimFace& rim, const Conversion& conversion, MomentField<S>& coarse) const;
@@ -62,5 +64,30 @@ class Restriction {
   std::array<RowEnd<Real>, 2> end_{RowEnd<Real>(0), RowEnd<Real>(1)};
   std::array<std::array<Lines, amr::block_size>, 6> sum_;  // [face][line]
 };
+
+/// Adds a layer of a line to the sums, which its first one starts.
+template <class S>
+[[gnu::always_inline]] inline void Restriction<S>::accumulate(int face, int line, int layer, const Line& values) {
+  const int side = face & 1, k = tap_of(side, layer);
+  if (k < 0 || k >= restriction_taps) return;
+  for (int r = 0; r < layers; ++r) {
+    const Real weight = stencil_.weight[output_of(side, r)][k];
+    Line& sum = sum_[face][line][r];
+    for (int m = 0; m < moments; ++m) sum[m] = k == 0 ? weight * values[m] : sum[m] + weight * values[m];
+  }
+}
+
+template <class S>
+[[gnu::always_inline]] inline void Restriction<S>::add(const Row<Real>& row, int y, int z) {
+  Line stored = row.m;
+  for (int m = pxx; m < moments; ++m) stored[m] = S::as_stored(row.m[m]);
+  for (int side = 0; side < 2; ++side) {
+    if (wanted_[2 + side]) accumulate(2 + side, z, y, stored);
+    if (wanted_[4 + side]) accumulate(4 + side, y, z, stored);
+    if (!wanted_[side]) continue;
+    for (int m = 0; m < moments; ++m) end_[side].put(m, y, stored[m]);
+    if (y == amr::block_size - 1) add_columns(side, z);
+  }
+}
 
 }  // namespace drogue::lbm

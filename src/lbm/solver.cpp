@@ -73,15 +73,16 @@ template <class S>
 void BasicSolver<S>::advance(int level, fluid::FineStepHook* hook) {
   Level& l = levels_[level];
   fill_boundary_(level, l.time, field_[l.now]);
-  if (level > 0) reflux_[level - 1].count_fine_step(field_[l.now], l.relaxation);
   stream_and_collide(level);
   fill_boundary_.balance(level, 1.0 - 1.0 / l.relaxation.tau, field_[l.now], field_[1 - l.now]);
   if (forced_) accelerate(level);
   apply_sponge(level);
-  if (level < forest_.finest())
+  if (level < forest_.finest()) {
+    reflux_[level].settle(field_[1 - l.now]);
     advance_twice(level + 1, hook);
-  else if (hook)
+  } else if (hook) {
     couple(*hook);
+  }
   l.now = 1 - l.now;
   l.time += l.dt;
   if (level > 0) restrict_changed(level, field_[1 - levels_[level - 1].now]);
@@ -98,8 +99,7 @@ void BasicSolver<S>::advance_twice(int level, fluid::FineStepHook* hook) {
   interpolation.take_half_way(coarse_end);
   interpolation.fill_rims(conversion(level - 1, level), field_[fine.now]);
   advance(level, hook);
-  reflux_[level - 1].settle(field_[coarse.now], coarse.relaxation, coarse_end);
-  interpolation.take_present(coarse_end);
+  interpolation.take_end(coarse_end);
 }
 
 template <class S>
@@ -117,11 +117,13 @@ void BasicSolver<S>::stream_and_collide(int level) {
       const BlockNeighbourhood<S> next = neighbourhood(std::min(id + 1, leaves.end - 1), l.now);
       blocks.next = &next;
       // a body force has yet to act
-      const bool at_rim = level > 0 && !forced_ && !l.to_parents.faces_of(id).empty();
+      const bool at_rim = level > 0 && !forced_ && !(*l.to_parents)[id].empty();
       if (at_rim) {
-        restriction->begin(id, l.to_parents.faces_of(id));
+        restriction->begin(id, (*l.to_parents)[id]);
         blocks.restriction = restriction.get();
       }
+      if (level > 0) reflux_[level - 1].of_fine().count(id, field_[l.now], l.relaxation);
+      if (level < forest_.finest()) reflux_[level].of_coarse().count(id, field_[l.now], l.relaxation);
       const BlockRecord record = update_(blocks, l.relaxation);
       if (at_rim) restriction->write(conversion(level, level - 1), field_[1 - levels_[level - 1].now]);
       field_[1 - l.now].forget_changes(id);
@@ -130,6 +132,8 @@ void BasicSolver<S>::stream_and_collide(int level) {
     }
   }
   if (diverged) report_divergence(level);
+  if (level > 0) reflux_[level - 1].end_fine_step(field_[l.now], l.relaxation);
+  if (level < forest_.finest()) reflux_[level].end_coarse_step(field_[l.now], l.relaxation);
   statistics_.cell_updates += std::int64_t{leaves.size()} * amr::block_cells;
   const double speed = std::sqrt(max_speed_squared);
   statistics_.max_speed = std::max(statistics_.max_speed, speed * units_.velocity);
@@ -142,7 +146,10 @@ BlockNeighbourhood<S> BasicSolver<S>::neighbourhood(int block, int from) {
   for (int slot = 0; slot < 27; ++slot) {
     const int id = forest_.block(block).neighbour[slot];
     blocks.source[slot] = field_[from].block(id);
-    blocks.columns[slot] = forest_.block(id).kind == amr::Kind::boundary ? nullptr : field_[from].columns(id);
+    const Index3 o = amr::slot_offset(slot);
+    const bool in_rows = forest_.block(id).kind == amr::Kind::boundary ||
+                         (o[0] != 0 && o[1] != 0 && o[2] == 0 && edge_is_in_rows(forest_, id, {-o[0], -o[1], 0}));
+    blocks.columns[slot] = in_rows ? nullptr : field_[from].columns(id);
   }
   MomentField<S>& target = field_[1 - from];
   blocks.target = target.block(block);
@@ -176,7 +183,7 @@ template <class S>
 void BasicSolver<S>::restrict_changed(int level, MomentField<S>& coarse) {
   MomentField<S>& fine = field_[levels_[level].now];
   const auto leaves = forest_.range(level, amr::Kind::leaf);
-  const RestrictionPlan& plan = levels_[level].to_parents;
+  const RestrictionPlan& plan = *levels_[level].to_parents;
 #pragma omp parallel
   {
     const auto restriction = std::make_unique<Restriction<S>>(forest_);
@@ -184,8 +191,8 @@ void BasicSolver<S>::restrict_changed(int level, MomentField<S>& coarse) {
     for (int id = leaves.begin; id < leaves.end; ++id) {
       if (!fine.changed(id)) continue;
       fine.forget_changes(id);
-      if (plan.faces_of(id).empty()) continue;
-      restriction->restrict_stored(fine, id, plan.faces_of(id), conversion(level, level - 1), coarse);
+      if (plan[id].empty()) continue;
+      restriction->restrict_stored(fine, id, plan[id], conversion(level, level - 1), coarse);
     }
   }
 }
@@ -196,7 +203,7 @@ void BasicSolver<S>::join_levels() {
   for (int level = forest_.finest(); level > 0; --level) {
     MomentField<S>& coarse = field_[levels_[level - 1].now];
     restrict_changed(level, coarse);
-    interpolation_[level - 1].take_present(coarse);
+    interpolation_[level - 1].start(coarse);
   }
 }
 
@@ -329,6 +336,7 @@ std::array<double, 4> BasicSolver<S>::mass_and_momentum() const {
       part[id - leaves.begin] = sum;
     }
     const double cell_mass = specification_.density * std::pow(forest_.spacing(level), 3);
+    if (level < forest_.finest()) total[0] += cell_mass * reflux_[level].owed();
     for (const auto& p : part) {
       total[0] += cell_mass * p[0];
       for (int a = 0; a < 3; ++a) total[1 + a] += cell_mass * units_.velocity * p[1 + a];

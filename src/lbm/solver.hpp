@@ -62,7 +62,7 @@ class BasicSolver : public fluid::FluidSolver {
     int now = 0;               // which of the two fields holds the level's present
     Vec3 lead = Vec3::Zero();  // of the stored velocity before that of the fluid, cells per step: lbm/body_force.cpp
     Relaxation relaxation;
-    RestrictionPlan to_parents;  // of the level above
+    std::optional<RestrictionPlan> to_parents;  // of the next coarser level, if there is one
     std::vector<SpongeBlock> sponge;
   };
 
