@@ -274,29 +274,13 @@ class BlockKernel {
       published_[0][m][y] = r.m[m][0];
       published_[1][m][y] = r.m[m][lanes - 1];
     }
-    if (blocks_.restriction && blocks_.restriction->wants(y, z)) blocks_.restriction->add(r, y, z);
-    for (int side = 0; side < 2; ++side)
-      if (blocks_.depth[side] > 1)
-        for (int m = 0; m < moments; ++m) end_[side].put(m, y, r.m[m]);
+    if (blocks_.sums && blocks_.sums->wants(y, z)) blocks_.sums->add(r, y, z);
     if (y < n - 1) return;
     for (int side = 0; side < 2; ++side) {
-      if (blocks_.depth[side] > 1) publish_inner(side, z);
       Row<Real> column;
       for (int m = 0; m < moments; ++m) column.m[m] = load<Real>(published_[side][m]);
       Layout::store_row_streaming(blocks_.target_columns + (side * n + z) * Layout::bytes, column);
     }
-  }
-
-  /// The layers of columns behind the outermost.
-  void publish_inner(int side, int z) {
-    const int depth = blocks_.depth[side];
-    std::array<Row<Real>, RowEnd<Real>::depth> layer;
-    for (int m = 0; m < moments; ++m) {
-      const auto columns = end_[side].columns(m);
-      for (int i = 1; i < depth; ++i) layer[i].m[m] = columns[side ? RowEnd<Real>::depth - 1 - i : i];
-    }
-    std::byte* to = blocks_.target_inner + (side * n + z) * (most_layers - 1) * Layout::bytes;
-    for (int i = 1; i < depth; ++i) Layout::store_row_streaming(to + (i - 1) * Layout::bytes, layer[i]);
   }
 
   void watch(const Row<Real>& r) {
@@ -324,7 +308,6 @@ class BlockKernel {
   alignas(sizeof(V)) Real published_[2][moments][lanes];  // [x side][moment][y]
   XHalo halo_;
   Scratch scratch_;
-  std::array<RowEnd<Real>, 2> end_{RowEnd<Real>(0), RowEnd<Real>(1)};  // used where levels meet
 };
 
 template <class S, fluid::Collision collision, fluid::EddyViscosity eddy = fluid::EddyViscosity::none>

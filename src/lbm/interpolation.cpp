@@ -16,20 +16,36 @@ Interpolation<S>::Interpolation(const amr::Forest& forest, int level)
       plan_(plan_interpolation(forest, level)),
       stencil_{Stencil<Real>(axis_of_rule(0)), Stencil<Real>(axis_of_rule(1)), Stencil<Real>(axis_of_rule(2)),
                Stencil<Real>(axis_of_rule(3))},
-      plane_{std::vector<Plane>(plan_.sum.size()), std::vector<Plane>(plan_.sum.size())} {}
+      of_leaf_(forest, level - 1),
+      plane_{std::vector<Plane<S>>(plan_.sum.size()), std::vector<Plane<S>>(plan_.sum.size())} {
+  for (std::size_t i = 0; i < plan_.sum.size(); ++i)
+    if (is_leaf(plan_.sum[i])) of_leaf_[plan_.sum[i].block].push_back(static_cast<int>(i));
+}
 
+/// Of leaves from their rows, as in the course of an update; of parents from where their rims are kept.
 template <class S>
-void Interpolation<S>::combine(const LayerSum& sum, const MomentField<S>& field, Plane& plane) const {
+void Interpolation<S>::take(const BlockSum& block_sum, const MomentField<S>& field, Plane<S>& plane) const {
   using Layout = RowLayout<S>;
-  for (int i = sum.lines.begin; i < sum.lines.end; ++i) {
+  const auto& [block, sum, lines] = block_sum;
+  if (is_leaf(block_sum)) {
+    LayerSums<S> sums;
+    sums.request(sum, plane);
+    return sums.add_block(field.block(block));
+  }
+  for (int i = lines.begin; i < lines.end; ++i) {
     std::array<const std::byte*, interpolation_taps> line;
-    for (int k = 0; k < sum.taps; ++k) line[k] = line_of(field, sum.block, sum.normal, sum.first_layer + k, i);
+    for (int k = 0; k < sum.taps; ++k) line[k] = line_of(field, block, sum.normal, sum.first + k, i);
     for (int m = 0; m < moments; ++m) {
       Vec<Real> v{};
       for (int k = 0; k < sum.taps; ++k) v += static_cast<Real>(sum.weight[k]) * Layout::load_scaled(line[k], m);
       plane[i][m] = v;
     }
   }
+}
+
+template <class S>
+void Interpolation<S>::request(int leaf, LayerSums<S>& sums) {
+  for (const int i : of_leaf_[leaf]) sums.request(plan_.sum[i].sum, plane_[1 - now_][i]);
 }
 
 template <class S>
@@ -42,15 +58,15 @@ void Interpolation<S>::for_each_sum(const F& f) const {
 
 template <class S>
 void Interpolation<S>::start(const MomentField<S>& coarse) {
-  for_each_sum([&](const LayerSum& sum, int i) { combine(sum, coarse, plane_[now_][i]); });
+  for_each_sum([&](const BlockSum& sum, int i) { take(sum, coarse, plane_[now_][i]); });
 }
 
 template <class S>
 void Interpolation<S>::take_half_way(const MomentField<S>& coarse_end) {
-  for_each_sum([&](const LayerSum& sum, int i) {
-    Plane &now = plane_[now_][i], &end = plane_[1 - now_][i];
-    if (!is_leaf(sum)) return combine(sum, coarse_end, now);
-    combine(sum, coarse_end, end);
+  for_each_sum([&](const BlockSum& sum, int i) {
+    Plane<S>&now = plane_[now_][i], &end = plane_[1 - now_][i];
+    if (!is_leaf(sum)) return take(sum, coarse_end, now);
+    if (coarse_end.changed(sum.block)) take(sum, coarse_end, end);
     for (int line = sum.lines.begin; line < sum.lines.end; ++line)
       for (int m = 0; m < moments; ++m) now[line][m] = Real(0.5) * (now[line][m] + end[line][m]);
   });
@@ -59,8 +75,8 @@ void Interpolation<S>::take_half_way(const MomentField<S>& coarse_end) {
 template <class S>
 void Interpolation<S>::take_end(const MomentField<S>& coarse_end) {
   now_ = 1 - now_;
-  for_each_sum([&](const LayerSum& sum, int i) {
-    if (!is_leaf(sum)) combine(sum, coarse_end, plane_[now_][i]);
+  for_each_sum([&](const BlockSum& sum, int i) {
+    if (!is_leaf(sum)) take(sum, coarse_end, plane_[now_][i]);
   });
 }
 

@@ -8,14 +8,16 @@
 #include <array>
 #include <vector>
 
+#include "lbm/by_leaf.hpp"
+#include "lbm/layer_sums.hpp"
 #include "lbm/lines.hpp"
 
 namespace drogue::lbm {
 
-/// The `lines` of a block with its layers from `first_layer` along `normal` (0 x, 1 y, 2 z) summed with these weights.
-struct LayerSum {
-  int block, normal, first_layer, taps;
-  std::array<double, interpolation_taps> weight;
+/// A sum of layers of a leaf or parent, of which some lines are needed.
+struct BlockSum {
+  int block;
+  LayerSum sum;
   Range lines;
 };
 
@@ -31,7 +33,7 @@ struct RimJob {
 
 /// Jobs sorted by target; `first[i]` .. `first[i + 1]` share the i-th target, so targets may be filled in parallel.
 struct InterpolationPlan {
-  std::vector<LayerSum> sum;
+  std::vector<BlockSum> sum;
   std::vector<RimJob> job;
   std::vector<int> first{0};
 };
@@ -48,6 +50,8 @@ class Interpolation {
 
   /// Takes the coarse field between two of its steps, from a state of which nothing has been taken yet.
   void start(const MomentField<S>& coarse);
+  /// Asks for the sums of a coarse leaf that is about to be updated.
+  void request(int leaf, LayerSums<S>& sums);
   /// Half-way through a step: of leaves the mean of what was taken last and of their end in `coarse_end`, of parents
   /// `coarse_end`, where they stand at the time of the fine level.
   void take_half_way(const MomentField<S>& coarse_end);
@@ -58,19 +62,18 @@ class Interpolation {
 
  private:
   using Real = typename S::Real;
-  using Line = std::array<Vec<Real>, moments>;
-  using Plane = std::array<Line, amr::block_size>;
 
   template <class F>
   void for_each_sum(const F& f) const;
-  bool is_leaf(const LayerSum& sum) const { return forest_.block(sum.block).kind == amr::Kind::leaf; }
-  void combine(const LayerSum& sum, const MomentField<S>& field, Plane& plane) const;
+  bool is_leaf(const BlockSum& sum) const { return forest_.block(sum.block).kind == amr::Kind::leaf; }
+  void take(const BlockSum& sum, const MomentField<S>& field, Plane<S>& plane) const;
   void fill(const RimJob& job, const Conversion& conversion, MomentField<S>& fine) const;
 
   const amr::Forest& forest_;
   const InterpolationPlan plan_;
   const std::array<Stencil<Real>, cubic_rules> stencil_;
-  std::array<std::vector<Plane>, 2> plane_;  // by sum
+  ByLeaf<int> of_leaf_;  // numbers of its sums
+  std::array<std::vector<Plane<S>>, 2> plane_;  // by sum
   int now_ = 0;                              // which of them stands at the time of the fine level; the other, of leaves,
                                              // at the end of the coarse step
 };

@@ -135,31 +135,31 @@ bool touches_boundary(const amr::Forest& forest, int id) {
 }
 
 /// Collects sums of layers, each once.
-class LayerSums {
+class BlockSums {
  public:
   /// Of what a stencil along `normal` reads, for an output in the layer `output`, from the first or second block of
   /// its pair; `none` if it reads nothing there.
   int add(int block, int normal, int rule, int output, int part, const Range& lines) {
     const Axis axis = axis_of_rule(rule);
-    LayerSum sum{block, normal, 0, 0, {}, lines};
+    LayerSum sum{normal, 0, 0, {}};
     for (int k = 0; k < axis.taps; ++k) {
       const int layer = axis.start[output] + k;
       if (layer / n != part) continue;
-      if (sum.taps == 0) sum.first_layer = layer % n;
+      if (sum.taps == 0) sum.first = layer % n;
       sum.weight[sum.taps++] = axis.weight[output][k];
     }
     if (sum.taps == 0) return amr::none;
     const auto [known, is_new] = number_.try_emplace({block, normal, rule, part}, static_cast<int>(sum_.size()));
-    if (is_new) sum_.push_back(sum);
+    if (is_new) sum_.push_back({block, sum, lines});
     Range& all = sum_[known->second].lines;
     all = {std::min(all.begin, lines.begin), std::max(all.end, lines.end)};
     return known->second;
   }
-  std::vector<LayerSum> take() { return std::move(sum_); }
+  std::vector<BlockSum> take() { return std::move(sum_); }
 
  private:
   std::map<std::array<int, 4>, int> number_;
-  std::vector<LayerSum> sum_;
+  std::vector<BlockSum> sum_;
 };
 
 /// Parents of `level` of which a part at an x face is read along x, by the interpolation onto a y or z face: where a
@@ -187,7 +187,7 @@ std::vector<bool> read_along_x(const amr::Forest& forest, int level) {
 
 InterpolationPlan plan_interpolation(const amr::Forest& forest, int level) {
   InterpolationPlan plan;
-  LayerSums sums;
+  BlockSums sums;
   const auto ghosts = forest.range(level, amr::Kind::ghost);
   for (int id = ghosts.begin; id < ghosts.end; ++id) {
     const auto [rule, source] = stencil_of(forest, forest.block(id));
@@ -223,8 +223,8 @@ RestrictionPlan plan_restriction(const amr::Forest& forest, int level) {
   const auto parents = forest.range(level - 1, amr::Kind::parent);
   const std::vector<bool> along_x = read_along_x(forest, level - 1);
   std::vector<bool> in_columns(forest.size(), false);  // blocks whose columns are interpolated
-  for (const LayerSum& sum : plan_interpolation(forest, level).sum)
-    if (sum.normal == 0) in_columns[sum.block] = true;
+  for (const BlockSum& of_block : plan_interpolation(forest, level).sum)
+    if (of_block.sum.normal == 0) in_columns[of_block.block] = true;
   RestrictionPlan plan(forest, level);
   for (int id = parents.begin; id < parents.end; ++id)
     for (const auto& [offset, box] : rims(leaf_offsets(forest, id, 3), depth, n))
@@ -248,23 +248,16 @@ bool edge_is_in_rows(const amr::Forest& forest, int id, const Index3& towards) {
          kind_at(forest, id, {0, towards[1], 0}) == amr::Kind::leaf;
 }
 
-std::vector<ColumnDepth> column_depths(const amr::Forest& forest) {
-  std::vector<ColumnDepth> result(forest.size(), {1, 1});
-  const auto keep = [&](int id, int x) {
-    const int side = x >= n / 2, layer = side ? n - 1 - x : x;
-    result[id][side] = std::max(result[id][side], layer + 1);
-  };
+std::vector<bool> deep_blocks(const amr::Forest& forest) {
+  std::vector<bool> deep(forest.size(), false);
   for (int level = 1; level < forest.levels(); ++level) {
-    const InterpolationPlan interpolation = plan_interpolation(forest, level);
-    for (const LayerSum& sum : interpolation.sum)
-      for (int k = 0; sum.normal == 0 && k < sum.taps; ++k) keep(sum.block, sum.first_layer + k);
     const RestrictionPlan restriction = plan_restriction(forest, level);
     const auto leaves = forest.range(level, amr::Kind::leaf);
     for (int leaf = leaves.begin; leaf < leaves.end; ++leaf)
       for (const RimFace& rim : restriction[leaf])
-        if (rim.face < 2) keep(forest.block(leaf).parent, rim.face == 0 ? depth - 1 : n - depth);
+        if (rim.face < 2) deep[forest.block(leaf).parent] = true;
   }
-  return result;
+  return deep;
 }
 
 }  // namespace drogue::lbm

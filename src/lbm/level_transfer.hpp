@@ -23,7 +23,7 @@ RestrictionPlan plan_restriction(const amr::Forest& forest, int level);
 /// face alone brings it about.
 bool edge_is_in_rows(const amr::Forest& forest, int id, const Index3& towards);
 
-/// How many layers of columns each block must keep for the transfer between levels.
-std::vector<ColumnDepth> column_depths(const amr::Forest& forest);
+/// Whether a block must keep two layers of columns for the transfer between levels: a parent with a rim at an x face.
+std::vector<bool> deep_blocks(const amr::Forest& forest);
 
 }  // namespace drogue::lbm

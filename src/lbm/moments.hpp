@@ -203,61 +203,26 @@ struct RowLayout {
   }
 };
 
-/// The last eight cells at one end of the rows of a plane, to be read as columns along y.
-template <class Real>
-class RowEnd {
- public:
-  static constexpr int depth = lanes / 2;
-
-  /// At x = 0 (side 0) or x = 15 (side 1).
-  explicit RowEnd(int side) : side_(side) {}
-
-  void put(int m, int y, Vec<Real> row) {
-    store_unaligned<Real>(end_[m][y % depth] + y / depth * depth, side_ ? high_half<Real>(row) : low_half<Real>(row));
-  }
-
-  /// Columns of moment m along y: x = 0, 1, .. 7 or 8, .. 15.
-  std::array<Vec<Real>, depth> columns(int m) const {
-    std::array<Vec<Real>, depth> v;
-    for (int i = 0; i < depth; ++i) v[i] = load<Real>(end_[m][i]);
-    // vector i, lane (j, k) holds row i + 8 j and cell k: exchange i and k bit by bit
-    for (int bit = depth / 2; bit > 0; bit /= 2)
-      for (int i = 0; i < depth; ++i)
-        if (!(i & bit)) exchange<Real>(v[i], v[i | bit], bit);
-    return v;
-  }
-
- private:
-  int side_;
-  alignas(128) Real end_[moments][depth][lanes];
-};
-
-/// Layers of cells at the two x faces of a block that are kept as columns.
-using ColumnDepth = std::array<int, 2>;
-inline constexpr int most_layers = 4;
-
 /// Moments of all blocks of a forest at one time level. The cells at the two x faces are kept once more, as columns
 /// along y, [x face][z][moment][y]: a neighbour that needs them would else touch every cache line of the block, because
-/// a row lies along x. Blocks that are resampled across an x face keep more layers, [x face][z][layer - 1][moment][y].
-/// Who changes such a cell of a leaf calls add(), refresh_columns() or velocity_to_columns(). Of ghosts and parents the rims at the x faces exist as
-/// columns alone, unless level_transfer.hpp says otherwise.
+/// a row lies along x. `deep` blocks, which are interpolated across an x face, keep the next layer as well.
+/// Who changes such a cell of a leaf calls add(), refresh_columns() or velocity_to_columns(). Of ghosts and parents the
+/// rims at the x faces exist as columns alone, unless level_transfer.hpp says otherwise.
 template <class S>
 class MomentField {
  public:
   using Layout = RowLayout<S>;
   using Real = typename S::Real;
   static constexpr std::size_t column_bytes = 2 * amr::block_size * Layout::bytes;
-  static constexpr std::size_t inner_bytes = (most_layers - 1) * column_bytes;
 
-  /// `depth`: of each block; one layer each if empty.
-  explicit MomentField(int blocks, std::vector<ColumnDepth> depth = {})
-      : rows_(blocks * Layout::block_bytes), columns_(blocks * column_bytes), depth_(std::move(depth)) {
+  explicit MomentField(int blocks, std::vector<bool> deep = {})
+      : rows_(blocks * Layout::block_bytes), columns_(blocks * column_bytes), deep_(std::move(deep)) {
+    deep_.resize(blocks, false);
     changed_.resize(blocks, false);
-    depth_.resize(blocks, {1, 1});
     inner_of_.reserve(blocks);
-    std::size_t deep = 0;
-    for (const auto& [low, high] : depth_) inner_of_.push_back(low > 1 || high > 1 ? deep++ : 0);
-    inner_ = HugeArray(deep * inner_bytes);
+    std::size_t count = 0;
+    for (const bool is_deep : deep_) inner_of_.push_back(is_deep ? count++ : 0);
+    inner_ = HugeArray(count * column_bytes);
   }
 
   std::byte* block(int id) { return rows_.data() + id * Layout::block_bytes; }
@@ -266,16 +231,13 @@ class MomentField {
   const std::byte* row(int id, int y, int z) const { return block(id) + (z * amr::block_size + y) * Layout::bytes; }
   std::byte* columns(int id) { return columns_.data() + id * column_bytes; }
   const std::byte* columns(int id) const { return columns_.data() + id * column_bytes; }
-  std::byte* inner_columns(int id) { return inner_.data() + inner_of_[id] * inner_bytes; }
-  const ColumnDepth& depth(int id) const { return depth_[id]; }
 
-  /// The column at (x, z); x must lie within the depth of a face.
+  /// The column at (x, z); x must be 0 or 15, of a deep block 0, 1, 14 or 15.
   std::byte* column(int id, int x, int z) { return const_cast<std::byte*>(std::as_const(*this).column(id, x, z)); }
   const std::byte* column(int id, int x, int z) const {
     const int side = x >= amr::block_size / 2, layer = side ? amr::block_size - 1 - x : x;
-    const int at = side * amr::block_size + z;
-    if (layer == 0) return columns(id) + at * Layout::bytes;
-    return inner_.data() + inner_of_[id] * inner_bytes + (at * (most_layers - 1) + layer - 1) * Layout::bytes;
+    const std::byte* first = layer == 0 ? columns(id) : inner_.data() + inner_of_[id] * column_bytes;
+    return first + (side * amr::block_size + z) * Layout::bytes;
   }
 
   /// Adds to density or velocity of one cell of a leaf; returns by how much it changed, which rounding decides.
@@ -285,7 +247,7 @@ class MomentField {
     Real& sum = Layout::macro(row(id, y, z), m)[x];
     const Real before = sum;
     sum += value;
-    if (x < depth_[id][0] || x >= amr::block_size - depth_[id][1]) Layout::macro(column(id, x, z), m)[y] = sum;
+    if (x == 0 || x == amr::block_size - 1) Layout::macro(column(id, x, z), m)[y] = sum;
     return double{sum} - double{before};
   }
 
@@ -311,20 +273,9 @@ class MomentField {
 
   void refresh_columns(int id) {
     changed_[id] = true;
-    for (int side = 0; side < 2; ++side) {
-      RowEnd<Real> end(side);
-      for (int z = 0; z < amr::block_size; ++z) {
-        for (int y = 0; y < amr::block_size; ++y)
-          for (int m = 0; m < moments; ++m) end.put(m, y, Layout::load(row(id, y, z), m));
-        for (int m = 0; m < moments; ++m) {
-          const auto columns = end.columns(m);
-          for (int layer = 0; layer < depth_[id][side]; ++layer) {
-            const int i = side ? RowEnd<Real>::depth - 1 - layer : layer;
-            Layout::store(column(id, side * amr::block_size / 2 + i, z), m, columns[i]);
-          }
-        }
-      }
-    }
+    for (const int x : {0, amr::block_size - 1})
+      for (int z = 0; z < amr::block_size; ++z)
+        Layout::store_row(column(id, x, z), Layout::load_column(block(id), x, z * amr::block_size, 1));
   }
 
   /// The same where only the velocity of one row has changed.
@@ -342,13 +293,14 @@ class MomentField {
   /// Calls f(x) for the x whose columns are kept.
   template <class F>
   void for_each_column(int id, const F& f) const {
-    for (int x = 0; x < depth_[id][0]; ++x) f(x);
-    for (int x = amr::block_size - depth_[id][1]; x < amr::block_size; ++x) f(x);
+    for (const int x : {0, amr::block_size - 1}) f(x);
+    if (!deep_[id]) return;
+    for (const int x : {1, amr::block_size - 2}) f(x);
   }
 
  private:
   HugeArray rows_, columns_, inner_;
-  std::vector<ColumnDepth> depth_;
+  std::vector<bool> deep_;
   std::vector<std::size_t> inner_of_;  // which part of inner_
   std::vector<std::uint8_t> changed_;  // of each block
 };

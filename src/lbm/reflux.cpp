@@ -145,7 +145,6 @@ Reflux<S>::Reflux(const amr::Forest& forest, bool third_order, Interface plan)
 
 template <class S>
 void Reflux<S>::end_coarse_step(const MomentField<S>& field, const Relaxation& relaxation) {
-  owed_ += counted_;
   counted_ = -coarse_.total(field, relaxation);
 }
 
@@ -158,6 +157,7 @@ void Reflux<S>::end_fine_step(const MomentField<S>& field, const Relaxation& rel
 template <class S>
 void Reflux<S>::settle(MomentField<S>& field) {
   if (cells_ == 0) return;
+  owed_ += std::exchange(counted_, 0.0);
   const auto share = static_cast<typename S::Real>(owed_ / cells_);
   owed_ -= sum_over(coarse_.faces(), [&](const std::vector<InterfaceFace>& of_leaf) {
     double given = 0.0;

@@ -60,7 +60,7 @@ class Reflux {
   /// To be called when all leaves have been counted.
   void end_coarse_step(const MomentField<S>& field, const Relaxation& relaxation);
   void end_fine_step(const MomentField<S>& field, const Relaxation& relaxation);
-  /// Gives the coarse leaves of `field` what the steps before have left; the second fine step has been counted since.
+  /// Gives the coarse leaves of `field` what the last step has left.
   void settle(MomentField<S>& field);
   /// Mass on its way between the levels, in coarse cells of rho 1.
   double owed() const { return owed_ + counted_; }

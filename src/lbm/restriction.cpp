@@ -11,43 +11,26 @@ constexpr int n = amr::block_size, half = n / 2, taps = restriction_taps;
 }  // namespace
 
 template <class S>
-void Restriction<S>::begin(int leaf, std::span<const RimFace> faces) {
-  leaf_ = leaf;
-  faces_ = faces;
-  wanted_.fill(false);
-  y_rows_ = z_rows_ = 0;
-  for (const RimFace& rim : faces) {
-    wanted_[rim.face] = true;
-    const unsigned rows = ((1u << taps) - 1) << (rim.face & 1 ? n - taps : 0);
-    if (rim.face / 2 == 1) y_rows_ |= rows;
-    if (rim.face / 2 == 2) z_rows_ |= rows;
-  }
-  x_faces_ = wanted_[0] || wanted_[1];
-}
-
-template <class S>
-void Restriction<S>::add_columns(int side, int z) {
-  for (int m = 0; m < moments; ++m) {
-    const auto columns = end_[side].columns(m);
+void Restriction<S>::request(const std::vector<RimFace>& faces, LayerSums<S>& sums) {
+  static const Axis axis = restriction_axis();
+  for (const RimFace& rim : faces)
     for (int r = 0; r < layers; ++r) {
-      const auto& weight = stencil_.weight[output_of(side, r)];
-      Vec<Real> sum{};
-      for (int k = 0; k < taps; ++k) sum += weight[k] * columns[side ? RowEnd<Real>::depth - taps + k : k];
-      sum_[side][z][r][m] = sum;
+      const int output = rim.face & 1 ? half - layers + r : r;  // of one child
+      sums.request({rim.face / 2, axis.start[output], taps, axis.weight[output]}, sum_[rim.face][r]);
     }
-  }
 }
 
 /// Across first; then both layers along themselves at once, whose eight cells each fill a vector.
 template <class S>
-void Restriction<S>::write_face(const RimFace& rim, const Conversion& conversion, MomentField<S>& coarse) const {
+void Restriction<S>::write_face(int leaf_id, const RimFace& rim, const Conversion& conversion,
+                                MomentField<S>& coarse) const {
   using Layout = RowLayout<S>;
   using V = Vec<Real>;
-  const amr::Block& leaf = forest_.block(leaf_);
+  const amr::Block& leaf = forest_.block(leaf_id);
   const int normal = rim.face / 2, side = rim.face & 1;
   const int across_half = leaf.index[across_axis(normal)] & 1, along_half = leaf.index[along_axis(normal)] & 1;
   const Range cells{along_half * half, along_half * half + half};
-  const auto& lines = sum_[rim.face];
+  const auto& sum = sum_[rim.face];
   const MomentConversion<Real> convert(conversion);
   const IndexVec<Real> second_layer = lane_numbers<Real> >= half ? IndexVec<Real>{} + n : IndexVec<Real>{};
   std::array<IndexVec<Real>, taps> lane;
@@ -64,13 +47,13 @@ void Restriction<S>::write_face(const RimFace& rim, const Conversion& conversion
     std::array<std::byte*, layers> to;
     for (int r = 0; r < layers; ++r)
       to[r] = line_of(coarse, leaf.parent, normal, (side ? n - layers : 0) + r, line);
-    const auto* from = &lines[stencil_.start[i]];
+    const int first = stencil_.start[i];
 #pragma GCC unroll 10
     for (int m = 0; m < moments; ++m) {
       V across[layers];
       for (int r = 0; r < layers; ++r) {
-        across[r] = stencil_.weight[i][0] * from[0][r][m];
-        for (int k = 1; k < taps; ++k) across[r] += stencil_.weight[i][k] * from[k][r][m];
+        across[r] = stencil_.weight[i][0] * sum[r][first][m];
+        for (int k = 1; k < taps; ++k) across[r] += stencil_.weight[i][k] * sum[r][first + k][m];
       }
       V v = lane_weight[0] * pick<Real>(across[0], across[1], lane[0]);
       for (int k = 1; k < taps; ++k) v += lane_weight[k] * pick<Real>(across[0], across[1], lane[k]);
@@ -84,18 +67,9 @@ void Restriction<S>::write_face(const RimFace& rim, const Conversion& conversion
 }
 
 template <class S>
-void Restriction<S>::write(const Conversion& conversion, MomentField<S>& coarse) const {
-  for (const RimFace& rim : faces_) write_face(rim, conversion, coarse);
-}
-
-template <class S>
-void Restriction<S>::restrict_stored(const MomentField<S>& fine, int leaf, std::span<const RimFace> faces,
-                                     const Conversion& conversion, MomentField<S>& coarse) {
-  begin(leaf, faces);
-  for (int z = 0; z < n; ++z)
-    for (int y = 0; y < n; ++y)
-      if (wants(y, z)) add(RowLayout<S>::load_row(fine.row(leaf, y, z)), y, z);
-  write(conversion, coarse);
+void Restriction<S>::write(int leaf, const std::vector<RimFace>& faces, const Conversion& conversion,
+                           MomentField<S>& coarse) const {
+  for (const RimFace& rim : faces) write_face(leaf, rim, conversion, coarse);
 }
 
 #ifdef __F16C__

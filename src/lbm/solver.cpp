@@ -38,8 +38,8 @@ BasicSolver<S>::BasicSolver(amr::Forest forest, fluid::Specification specificati
     : forest_(std::move(forest)),
       specification_(std::move(specification)),
       units_(units_of(specification_)),
-      field_{MomentField<S>(forest_.size(), column_depths(forest_)),
-             MomentField<S>(forest_.size(), column_depths(forest_))},
+      field_{MomentField<S>(forest_.size(), deep_blocks(forest_)),
+             MomentField<S>(forest_.size(), deep_blocks(forest_))},
       fill_boundary_(forest_, specification_, units_),
       forced_(is_forced(specification_)),
       force_(forest_),
@@ -72,17 +72,16 @@ void BasicSolver<S>::step(fluid::FineStepHook* hook) {
 template <class S>
 void BasicSolver<S>::advance(int level, fluid::FineStepHook* hook) {
   Level& l = levels_[level];
+  if (level < forest_.finest()) reflux_[level].settle(field_[l.now]);
   fill_boundary_(level, l.time, field_[l.now]);
   stream_and_collide(level);
   fill_boundary_.balance(level, 1.0 - 1.0 / l.relaxation.tau, field_[l.now], field_[1 - l.now]);
   if (forced_) accelerate(level);
   apply_sponge(level);
-  if (level < forest_.finest()) {
-    reflux_[level].settle(field_[1 - l.now]);
+  if (level < forest_.finest())
     advance_twice(level + 1, hook);
-  } else if (hook) {
+  else if (hook)
     couple(*hook);
-  }
   l.now = 1 - l.now;
   l.time += l.dt;
   if (level > 0) restrict_changed(level, field_[1 - levels_[level - 1].now]);
@@ -110,22 +109,22 @@ void BasicSolver<S>::stream_and_collide(int level) {
   bool diverged = false;
 #pragma omp parallel reduction(max : max_speed_squared) reduction(|| : diverged)
   {
-    const auto restriction = level > 0 ? std::make_unique<Restriction<S>>(forest_) : nullptr;
+    const auto restriction = std::make_unique<Restriction<S>>(forest_);
+    LayerSums<S> sums;
 #pragma omp for schedule(static)
     for (int id = leaves.begin; id < leaves.end; ++id) {
       BlockNeighbourhood<S> blocks = neighbourhood(id, l.now);
       const BlockNeighbourhood<S> next = neighbourhood(std::min(id + 1, leaves.end - 1), l.now);
       blocks.next = &next;
-      // a body force has yet to act
-      const bool at_rim = level > 0 && !forced_ && !(*l.to_parents)[id].empty();
-      if (at_rim) {
-        restriction->begin(id, (*l.to_parents)[id]);
-        blocks.restriction = restriction.get();
-      }
+      sums.begin();
+      if (level > 0) restriction->request((*l.to_parents)[id], sums);
+      if (level < forest_.finest()) interpolation_[level].request(id, sums);
+      if (!sums.empty()) blocks.sums = &sums;
       if (level > 0) reflux_[level - 1].of_fine().count(id, field_[l.now], l.relaxation);
       if (level < forest_.finest()) reflux_[level].of_coarse().count(id, field_[l.now], l.relaxation);
       const BlockRecord record = update_(blocks, l.relaxation);
-      if (at_rim) restriction->write(conversion(level, level - 1), field_[1 - levels_[level - 1].now]);
+      if (level > 0)
+        restriction->write(id, (*l.to_parents)[id], conversion(level, level - 1), field_[1 - levels_[level - 1].now]);
       field_[1 - l.now].forget_changes(id);
       max_speed_squared = std::max(max_speed_squared, record.max_speed_squared);
       diverged = diverged || record.diverged;
@@ -154,8 +153,6 @@ BlockNeighbourhood<S> BasicSolver<S>::neighbourhood(int block, int from) {
   MomentField<S>& target = field_[1 - from];
   blocks.target = target.block(block);
   blocks.target_columns = target.columns(block);
-  blocks.depth = target.depth(block);
-  if (blocks.depth != ColumnDepth{1, 1}) blocks.target_inner = target.inner_columns(block);
   return blocks;
 }
 
@@ -187,12 +184,16 @@ void BasicSolver<S>::restrict_changed(int level, MomentField<S>& coarse) {
 #pragma omp parallel
   {
     const auto restriction = std::make_unique<Restriction<S>>(forest_);
+    LayerSums<S> sums;
 #pragma omp for schedule(dynamic, 4)
     for (int id = leaves.begin; id < leaves.end; ++id) {
       if (!fine.changed(id)) continue;
       fine.forget_changes(id);
       if (plan[id].empty()) continue;
-      restriction->restrict_stored(fine, id, plan[id], conversion(level, level - 1), coarse);
+      sums.begin();
+      restriction->request(plan[id], sums);
+      sums.add_block(fine.block(id));
+      restriction->write(id, plan[id], conversion(level, level - 1), coarse);
     }
   }
 }

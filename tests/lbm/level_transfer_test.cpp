@@ -47,8 +47,13 @@ void transfer(const amr::Forest& forest, Field& field, double up, double down) {
   const RestrictionPlan plan = plan_restriction(forest, 1);
   const auto restriction = std::make_unique<Restriction<FloatStress>>(forest);
   const auto leaves = forest.range(1, amr::Kind::leaf);
-  for (int leaf = leaves.begin; leaf < leaves.end; ++leaf)
-    restriction->restrict_stored(field, leaf, plan[leaf], {up}, field);
+  LayerSums<FloatStress> sums;
+  for (int leaf = leaves.begin; leaf < leaves.end; ++leaf) {
+    sums.begin();
+    restriction->request(plan[leaf], sums);
+    sums.add_block(field.block(leaf));
+    restriction->write(leaf, plan[leaf], {up}, field);
+  }
   Interpolation<FloatStress> interpolation(forest, 1);
   interpolation.start(field);
   interpolation.fill_rims({down}, field);
@@ -86,7 +91,7 @@ void for_each_rim_cell(const amr::Forest& forest, int level, const F& f) {
 
 TEST(LevelTransfer, every_rim_a_leaf_streams_from_reproduces_cubic_fields) {
   const amr::Forest forest = l_shaped();
-  Field field(forest.size(), column_depths(forest));
+  Field field(forest.size(), deep_blocks(forest));
   fill(forest, field, amr::Kind::leaf);
   const double up = 1.0, down = 1.5;
   transfer(forest, field, up, down);
@@ -108,7 +113,7 @@ TEST(LevelTransfer, boundary_blocks_find_the_rims_they_mirror_in_rows) {
   const double dx = 1.0 / 48;
   const amr::Forest forest({{Vec3::Zero(), Vec3::Ones()}, dx, {}}, 1,
                            amr::refine_box({Vec3(0.34, 0.34, 0.34), Vec3(0.65, 1.0, 0.65)}, dx, dx / 2));
-  Field field(forest.size(), column_depths(forest));
+  Field field(forest.size(), deep_blocks(forest));
   fill(forest, field, amr::Kind::leaf);
   transfer(forest, field, 1.0, 1.0);
   for (const int level : {0, 1})
