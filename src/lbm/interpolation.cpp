@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "lbm/interpolation.hpp"
 
+#include <memory>
+
 #include "lbm/level_transfer.hpp"
 
 namespace drogue::lbm {
@@ -28,9 +30,9 @@ void Interpolation<S>::take(const BlockSum& block_sum, const MomentField<S>& fie
   using Layout = RowLayout<S>;
   const auto& [block, sum, lines] = block_sum;
   if (is_leaf(block_sum)) {
-    LayerSums<S> sums;
-    sums.request(sum, plane);
-    return sums.add_block(field.block(block));
+    const auto sums = std::make_unique<LayerSums<S>>();
+    sums->request(sum, plane);
+    return sums->sum(field.block(block));
   }
   for (int i = lines.begin; i < lines.end; ++i) {
     std::array<const std::byte*, interpolation_taps> line;

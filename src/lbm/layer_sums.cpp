@@ -20,24 +20,41 @@ void LayerSums<S>::request(const LayerSum& sum, Plane<S>& result) {
 }
 
 template <class S>
-void LayerSums<S>::add_columns(int side, int z) {
+void LayerSums<S>::sum_columns(int side, int z) {
   for (int m = 0; m < moments; ++m) {
     const auto columns = end_[side].columns(m);
+    const auto stored = [&](int x) { return m < pxx ? columns[x % half] : S::as_stored(columns[x % half]); };
     for (const Request& r : requests_) {
       if (r.normal != 0 || r.first / half != side) continue;
-      Vec<Real> sum = r.weight[0] * columns[r.first % half];
-      for (int k = 1; k < r.taps; ++k) sum += r.weight[k] * columns[r.first % half + k];
+      Vec<Real> sum = r.weight[0] * stored(r.first);
+      for (int k = 1; k < r.taps; ++k) sum += r.weight[k] * stored(r.first + k);
       (*r.result)[z][m] = sum;
     }
   }
 }
 
 template <class S>
-void LayerSums<S>::add_block(const std::byte* rows) {
-  using Layout = RowLayout<S>;
-  for (int z = 0; z < n; ++z)
-    for (int y = 0; y < n; ++y)
-      if (wants(y, z)) add(Layout::load_row(rows + (z * n + y) * Layout::bytes), y, z);
+void LayerSums<S>::sum_rows(const std::byte* rows) {
+  for (const Request& r : requests_) {
+    if (r.normal == 0) continue;
+    for (int line = 0; line < n; ++line) {
+      const std::byte* row = rows + (r.normal == 1 ? line * n + r.first : r.first * n + line) * Layout::bytes;
+      const std::size_t stride = (r.normal == 1 ? 1 : n) * Layout::bytes;
+      for (int m = 0; m < moments; ++m) {
+        Vec<Real> sum = r.weight[0] * Layout::load_scaled(row, m);
+        for (int k = 1; k < r.taps; ++k) sum += r.weight[k] * Layout::load_scaled(row + k * stride, m);
+        (*r.result)[line][m] = sum;
+      }
+    }
+  }
+}
+
+template <class S>
+void LayerSums<S>::sum(const std::byte* rows) {
+  for (int side = 0; side < 2; ++side)
+    for (int i = 0; sides_[side] && i < rows_per_block; ++i)
+      add_end(side, Layout::load_row(rows + i * Layout::bytes), i % n, i / n);
+  sum_rows(rows);
 }
 
 #ifdef __F16C__

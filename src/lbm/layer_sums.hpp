@@ -47,7 +47,9 @@ class RowEnd {
   alignas(128) Real end_[moments][depth][lanes];
 };
 
-/// Takes sums of one block at a time: begin(), request() for each, then add() for its rows, plane by plane.
+/// Takes sums of one block at a time: begin(), request() for each, then add() for the rows that it wants, plane by plane,
+/// and finish(); or, of a block in memory, sum(). While a block is updated its rows are only put aside, because the
+/// update itself needs the first-level cache. About 130 KB.
 template <class S>
 class LayerSums {
  public:
@@ -62,42 +64,41 @@ class LayerSums {
   void request(const LayerSum& sum, Plane<S>& result);
   bool empty() const { return requests_.empty(); }
 
-  bool wants(int y, int z) const { return sides_[0] || sides_[1] || (y_rows_ >> y & 1) || (z_rows_ >> z & 1); }
+  bool wants(int y, int z) const { return sides_[0] || sides_[1] || wants_row(y, z); }
   [[gnu::always_inline]] inline void add(const Row<Real>& row, int y, int z);
-  /// All rows of a block that is in memory.
-  void add_block(const std::byte* rows);
+  void finish() { sum_rows(rows_.data()); }
+  void sum(const std::byte* rows);
 
  private:
+  using Layout = RowLayout<S>;
   struct Request {
     int normal, first, taps;
     std::array<Real, Axis::most_taps> weight;
     Plane<S>* result;
   };
-  void add_columns(int side, int z);
+  bool wants_row(int y, int z) const { return (y_rows_ >> y & 1) || (z_rows_ >> z & 1); }
+  void add_end(int side, const Row<Real>& row, int y, int z);
+  void sum_columns(int side, int z);
+  void sum_rows(const std::byte* rows);
 
   std::vector<Request> requests_;
   std::array<bool, 2> sides_{};       // of which there are sums along x
   unsigned y_rows_ = 0, z_rows_ = 0;  // bits of the layers that are summed
   std::array<RowEnd<Real>, 2> end_;
+  alignas(64) std::array<std::byte, Layout::block_bytes> rows_;  // those put aside
 };
 
 template <class S>
 void LayerSums<S>::add(const Row<Real>& row, int y, int z) {
-  std::array<Vec<Real>, moments> stored = row.m;
-  for (int m = pxx; m < moments; ++m) stored[m] = S::as_stored(row.m[m]);
-  for (const Request& r : requests_) {
-    if (r.normal == 0) continue;
-    const int k = (r.normal == 1 ? y : z) - r.first;
-    if (k < 0 || k >= r.taps) continue;
-    auto& line = (*r.result)[r.normal == 1 ? z : y];
-    for (int m = 0; m < moments; ++m)
-      line[m] = k == 0 ? r.weight[0] * stored[m] : line[m] + r.weight[k] * stored[m];
-  }
-  for (int side = 0; side < 2; ++side) {
-    if (!sides_[side]) continue;
-    for (int m = 0; m < moments; ++m) end_[side].put(side, m, y, stored[m]);
-    if (y == lanes - 1) add_columns(side, z);
-  }
+  if (wants_row(y, z)) Layout::store_row(rows_.data() + (z * lanes + y) * Layout::bytes, row);
+  for (int side = 0; side < 2; ++side)
+    if (sides_[side]) add_end(side, row, y, z);
+}
+
+template <class S>
+inline void LayerSums<S>::add_end(int side, const Row<Real>& row, int y, int z) {
+  for (int m = 0; m < moments; ++m) end_[side].put(side, m, y, row.m[m]);
+  if (y == lanes - 1) sum_columns(side, z);
 }
 
 }  // namespace drogue::lbm

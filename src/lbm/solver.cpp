@@ -110,19 +110,20 @@ void BasicSolver<S>::stream_and_collide(int level) {
 #pragma omp parallel reduction(max : max_speed_squared) reduction(|| : diverged)
   {
     const auto restriction = std::make_unique<Restriction<S>>(forest_);
-    LayerSums<S> sums;
+    const auto sums = std::make_unique<LayerSums<S>>();
 #pragma omp for schedule(static)
     for (int id = leaves.begin; id < leaves.end; ++id) {
       BlockNeighbourhood<S> blocks = neighbourhood(id, l.now);
       const BlockNeighbourhood<S> next = neighbourhood(std::min(id + 1, leaves.end - 1), l.now);
       blocks.next = &next;
-      sums.begin();
-      if (level > 0) restriction->request((*l.to_parents)[id], sums);
-      if (level < forest_.finest()) interpolation_[level].request(id, sums);
-      if (!sums.empty()) blocks.sums = &sums;
+      sums->begin();
+      if (level > 0) restriction->request((*l.to_parents)[id], *sums);
+      if (level < forest_.finest()) interpolation_[level].request(id, *sums);
+      if (!sums->empty()) blocks.sums = sums.get();
       if (level > 0) reflux_[level - 1].of_fine().count(id, field_[l.now], l.relaxation);
       if (level < forest_.finest()) reflux_[level].of_coarse().count(id, field_[l.now], l.relaxation);
       const BlockRecord record = update_(blocks, l.relaxation);
+      sums->finish();
       if (level > 0)
         restriction->write(id, (*l.to_parents)[id], conversion(level, level - 1), field_[1 - levels_[level - 1].now]);
       field_[1 - l.now].forget_changes(id);
@@ -184,15 +185,15 @@ void BasicSolver<S>::restrict_changed(int level, MomentField<S>& coarse) {
 #pragma omp parallel
   {
     const auto restriction = std::make_unique<Restriction<S>>(forest_);
-    LayerSums<S> sums;
+    const auto sums = std::make_unique<LayerSums<S>>();
 #pragma omp for schedule(dynamic, 4)
     for (int id = leaves.begin; id < leaves.end; ++id) {
       if (!fine.changed(id)) continue;
       fine.forget_changes(id);
       if (plan[id].empty()) continue;
-      sums.begin();
-      restriction->request(plan[id], sums);
-      sums.add_block(fine.block(id));
+      sums->begin();
+      restriction->request(plan[id], *sums);
+      sums->sum(fine.block(id));
       restriction->write(id, plan[id], conversion(level, level - 1), coarse);
     }
   }

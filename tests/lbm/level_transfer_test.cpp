@@ -47,11 +47,11 @@ void transfer(const amr::Forest& forest, Field& field, double up, double down) {
   const RestrictionPlan plan = plan_restriction(forest, 1);
   const auto restriction = std::make_unique<Restriction<FloatStress>>(forest);
   const auto leaves = forest.range(1, amr::Kind::leaf);
-  LayerSums<FloatStress> sums;
+  const auto sums = std::make_unique<LayerSums<FloatStress>>();
   for (int leaf = leaves.begin; leaf < leaves.end; ++leaf) {
-    sums.begin();
-    restriction->request(plan[leaf], sums);
-    sums.add_block(field.block(leaf));
+    sums->begin();
+    restriction->request(plan[leaf], *sums);
+    sums->sum(field.block(leaf));
     restriction->write(leaf, plan[leaf], {up}, field);
   }
   Interpolation<FloatStress> interpolation(forest, 1);
