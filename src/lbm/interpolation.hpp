@@ -26,9 +26,9 @@ struct BlockSum {
 struct RimJob {
   int target, normal, layer;
   Range lines, cells;
-  int across_rule, along_rule;                          ///< see axis_of_rule()
+  int across_rule, along_rule;                           ///< see axis_of_rule()
   std::array<std::array<std::array<int, 2>, 2>, 2> sum;  ///< [across][along] of the pairs: two terms, or one and none
-  bool copy;                                            ///< see copy_line()
+  bool copy;                                             ///< see copy_line()
 };
 
 /// Jobs sorted by target; `first[i]` .. `first[i + 1]` share the i-th target, so targets may be filled in parallel.
@@ -72,10 +72,10 @@ class Interpolation {
   const amr::Forest& forest_;
   const InterpolationPlan plan_;
   const std::array<Stencil<Real>, cubic_rules> stencil_;
-  ByLeaf<int> of_leaf_;  // numbers of its sums
+  ByLeaf<int> of_leaf_;                         // numbers of its sums
   std::array<std::vector<Plane<S>>, 2> plane_;  // by sum
-  int now_ = 0;                              // which of them stands at the time of the fine level; the other, of leaves,
-                                             // at the end of the coarse step
+  int now_ = 0;  // which of them stands at the time of the fine level; the other, of leaves,
+                 // at the end of the coarse step
 };
 
 }  // namespace drogue::lbm

@@ -47,9 +47,9 @@ class RowEnd {
   alignas(128) Real end_[moments][depth][lanes];
 };
 
-/// Takes sums of one block at a time: begin(), request() for each, then add() for the rows that it wants, plane by plane,
-/// and finish(); or, of a block in memory, sum(). While a block is updated its rows are only put aside, because the
-/// update itself needs the first-level cache. About 130 KB.
+/// Takes sums of one block at a time: begin(), request() for each, then add() for the rows that it wants, plane by
+/// plane, and finish(); or, of a block in memory, sum(). While a block is updated its rows are only put aside, because
+/// the update itself needs the first-level cache. About 130 KB.
 template <class S>
 class LayerSums {
  public:

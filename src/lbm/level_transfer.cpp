@@ -194,7 +194,14 @@ InterpolationPlan plan_interpolation(const amr::Forest& forest, int level) {
     for (const auto& [offset, box] : rims(leaf_offsets(forest, id, 2), 1, n)) {
       const int normal = normal_to(offset), across = across_axis(normal), along = along_axis(normal);
       const auto range = [&, &box = box](int a) { return Range{box.begin[a], box.end[a]}; };
-      RimJob job{id,          normal, box.begin[normal], range(across), range(along), rule[across], rule[along], {},
+      RimJob job{id,
+                 normal,
+                 box.begin[normal],
+                 range(across),
+                 range(along),
+                 rule[across],
+                 rule[along],
+                 {},
                  normal == 2 || (normal == 0 && touches_boundary(forest, id))};
       const Axis axis = axis_of_rule(job.across_rule);
       const int first = axis.start[job.lines.begin], end = axis.start[job.lines.end - 1] + axis.taps;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Which cells of which blocks the transfer between levels must fill so that every leaf finds its neighbourhood on its own level.
+// Which cells of which blocks the transfer between levels must fill so that every leaf finds its neighbourhood on its
+// own level.
 #pragma once
 
 #include <vector>

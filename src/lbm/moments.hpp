@@ -251,8 +251,8 @@ class MomentField {
     return double{sum} - double{before};
   }
 
-  /// The same for a line of 16 cells at a face of a leaf, 0 to 5: number `r` of the columns at an x face, of the rows at
-  /// the others. Returns the sum of the changes.
+  /// The same for a line of 16 cells at a face of a leaf, 0 to 5: number `r` of the columns at an x face, of the rows
+  /// at the others. Returns the sum of the changes.
   double add_at_face(int id, int face, int r, int m, Real value) {
     changed_[id] = true;
     const int axis = face / 2, layer = face & 1 ? amr::block_size - 1 : 0;

@@ -45,8 +45,7 @@ void Restriction<S>::write_face(int leaf_id, const RimFace& rim, const Conversio
   for (int i = 0; i < half; ++i) {
     const int line = across_half * half + i;
     std::array<std::byte*, layers> to;
-    for (int r = 0; r < layers; ++r)
-      to[r] = line_of(coarse, leaf.parent, normal, (side ? n - layers : 0) + r, line);
+    for (int r = 0; r < layers; ++r) to[r] = line_of(coarse, leaf.parent, normal, (side ? n - layers : 0) + r, line);
     const int first = stencil_.start[i];
 #pragma GCC unroll 10
     for (int m = 0; m < moments; ++m) {

@@ -234,19 +234,15 @@ void BasicSolver<S>::couple(fluid::FineStepHook& hook) {
   const int count = static_cast<int>(opened.size());
 #pragma omp parallel for schedule(static)
   for (int i = 0; i < count; ++i) {
-    const float* f = std::as_const(force_).block(opened[i]);
-    for (int r = 0; r < rows_per_block; ++r, f += fluid::ForceField::stride_y) {
-      std::array<Vec<float>, 3> force;
-      for (int a = 0; a < 3; ++a) force[a] = load_unaligned(f + a * fluid::ForceField::stride_component);
-      if (is_zero(force[0]) && is_zero(force[1]) && is_zero(force[2])) continue;
+    force_.drain(opened[i], [&](int r, const float* force) {
       std::byte* row = field_[field].block(opened[i]) + r * Layout::bytes;
-      for (int a = 0; a < 3; ++a) {
+      for (int a = 0; a < 3; ++a, force += fluid::ForceField::stride_component) {
         Real* u = Layout::macro(row, ux + a);
         __builtin_prefetch(Layout::macro(row + n * Layout::bytes, ux + a), 1);  // where a sheet goes on, one plane up
-        store(u, load(u) + lattice_kappa * __builtin_convertvector(force[a], Vec<Real>));
+        store(u, load(u) + lattice_kappa * __builtin_convertvector(load_unaligned(force), Vec<Real>));
       }
       field_[field].velocity_to_columns(opened[i], r % n, r / n);
-    }
+    });
   }
 }
 

@@ -88,7 +88,7 @@ class BasicSolver : public fluid::FluidSolver {
   std::vector<Level> levels_;
   std::array<MomentField<S>, 2> field_;
   BoundaryFill<S> fill_boundary_;
-  bool forced_;                    // by a body force
+  bool forced_;                                  // by a body force
   std::vector<Interpolation<S>> interpolation_;  // by the coarser level of an interface
   std::vector<Reflux<S>> reflux_;                // likewise
   fluid::ForceField force_;

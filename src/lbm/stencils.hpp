@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The weights that join levels along one axis; in space they act as tensor products. Populations move at lattice speed,
-// so a second-order mismatch of the velocity at an interface would reach the flow as a first-order force (DESIGN section
-// 3, table); hence cubic interpolation and fourth-order restriction.
+// so a second-order mismatch of the velocity at an interface would reach the flow as a first-order force (DESIGN
+// section 3, table); hence cubic interpolation and fourth-order restriction.
 #pragma once
 
 #include <array>
