@@ -152,7 +152,7 @@ TEST(Structure, pairs_with_their_own_mass_move_as_free_nodes) {
 
 TEST(Structure, a_hinged_plate_swings_freely) {
   const Mesh mesh = thin_plate();
-  Hold hinge{.rigid = true, .hinged = true};
+  Hold hinge{.nodes = {}, .rigid = true, .hinged = true};
   for (std::size_t i = 0; i < mesh.nodes.size(); ++i) {
     if (mesh.nodes[i].y() < -0.05 + 1e-9) hinge.nodes.push_back(static_cast<int>(i));
   }
