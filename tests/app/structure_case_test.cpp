@@ -79,6 +79,8 @@ TEST_F(StructureCase, a_sheet_on_four_cables_hangs_in_equilibrium_and_what_was_a
 }
 
 TEST_F(StructureCase, solvers_agree_and_the_summary_names_what_was_used) {
+  // Hung by its corners the sheet buckles, and may do so in several ways.
+  write(replaced(hanging_sheet, "[[body.probe]]", "[[body.hold]]\nnodes = \"rim\"\nrigid = true\n\n[[body.probe]]"));
   options_.force = true;
   std::vector<double> depth;
   for (const std::string solver : {"relaxation", "newton", "equilibrium"}) {
