@@ -12,11 +12,11 @@ namespace drogue::fem {
 namespace {
 
 constexpr double per_force = 10.0;         // on a node by an element
-constexpr double per_entry = 12.0;         // of the tangent of an element, computed and summed
+constexpr double per_entry = 10.0;         // of the tangent of an element, computed and summed
 constexpr double per_operation = 0.3;      // of a factorisation
 constexpr double implicit_iterations = 4;  // of a step
 constexpr double newton_iterations = 15;   // to an equilibrium
-constexpr double crossings = 100;          // of the body by a wave, to an equilibrium by relaxation
+constexpr double crossings = 60;           // of the body by a wave, to an equilibrium by relaxation
 
 /// Number of elements in a row from the node furthest from node 0 to the one furthest from that; parts that hang
 /// together with neither do not count.
