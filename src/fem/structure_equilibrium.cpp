@@ -104,7 +104,7 @@ Newton& Structure::Data::newton() {
 
 /// The loads are applied at once, or, if that fails, in parts.
 int Structure::Data::balance_by_newton(double time, const EquilibriumOptions& asked) {
-  constexpr double least_part = 1.0 / 256.0;
+  constexpr double least_part = 1.0 / 16.0;
   const NodalMatrix added = tethers();
   const auto forces = [this](std::span<const Vec3> at) { return balance(at, own_weight()); };
   int iterations = 0;

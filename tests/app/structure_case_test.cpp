@@ -78,19 +78,52 @@ TEST_F(StructureCase, a_sheet_on_four_cables_hangs_in_equilibrium_and_what_was_a
   EXPECT_NEAR(history.find("load.reaction_z")->back() / weight, 1.0, 1e-5);
 }
 
+TEST_F(StructureCase, solvers_agree_and_the_summary_names_what_was_used) {
+  // Hung by its corners the sheet buckles, and may do so in several ways.
+  write(replaced(hanging_sheet, "[[body.probe]]", "[[body.hold]]\nnodes = \"rim\"\nrigid = true\n\n[[body.probe]]"));
+  options_.force = true;
+  std::vector<double> depth;
+  for (const std::string solver : {"relaxation", "newton", "equilibrium"}) {
+    options_.overrides = {"structure.solver=" + solver};
+    run_case(options_);
+    const std::string used = summary()["structure"]["load"];
+    EXPECT_TRUE(used == solver || solver == "equilibrium") << used;
+    depth.push_back(summary()["results"]["depth"]);
+  }
+  EXPECT_NEAR(depth[1] / depth[0], 1.0, 1e-4);
+  EXPECT_NEAR(depth[2] / depth[0], 1.0, 1e-4);
+}
+
 TEST_F(StructureCase, a_moving_structure_continues_from_its_checkpoint) {
   const std::string moving = replaced(hanging_sheet, "solver = \"relaxation\"", "step = 0.001");
   write(replaced(moving, "end = 1", "end = 0.02"));
+  for (const std::string integrator : {"explicit", "implicit"}) {
+    options_.overrides = {"body.load.integrator=" + integrator};
+    options_.force = true;
+    run_case(options_);
+    EXPECT_EQ(summary()["structure"]["load"], integrator);
+    const std::vector<std::string> whole = history();
+    options_.until = 0.01;
+    run_case(options_);
+    options_.force = false;
+    options_.until.reset();
+    options_.resume = true;
+    run_case(options_);
+    EXPECT_EQ(history(), whole);
+    options_.resume = false;
+  }
+}
+
+TEST_F(StructureCase, motion_that_nothing_resists_is_a_warning) {
+  const std::string cable =
+      "[[body.cable]]\nname = \"bar\"\nfrom = \"hook\"\nto = \"post\"\nelements = 2\ndensity = 1\n"
+      "section = 1e-6\nyoung = 1e9\n\n[[body.point]]\nname = \"post\"\nplace = [0, 0, 3]\n\n"
+      "[[body.hold]]\nnodes = \"post\"\nrigid = true\n\n[[body.probe]]";
+  write(replaced(replaced(hanging_sheet, "[[body.probe]]", cable), "gravity = [0, 0, -10]", "gravity = [0, 0, 0]"));
+  options_.overrides = {"structure.solver=newton"};
   run_case(options_);
-  const std::vector<std::string> whole = history();
-  options_.until = 0.01;
-  options_.force = true;
-  run_case(options_);
-  options_.force = false;
-  options_.until.reset();
-  options_.resume = true;
-  run_case(options_);
-  EXPECT_EQ(history(), whole);
+  const std::string warning = summary()["warnings"][0];
+  EXPECT_NE(warning.find("body load: nothing resists a motion of node"), std::string::npos) << warning;
 }
 
 TEST_F(StructureCase, mistakes_are_named_with_their_place) {
@@ -104,7 +137,9 @@ TEST_F(StructureCase, mistakes_are_named_with_their_place) {
       {"thickness = 1e-3\n", "thickness = 1e-3\nwrinkling = true\n",
        "body.load.wrinkling = true needs an isotropic law"},
       {"to = \"hook\"", "to = \"corners\"", "body.load.cable.lines is wrong: it joins a node with itself"},
-      {"[[body.hold]]\nnodes = \"hook\"\nrigid = true\n", "", "no equilibrium"},
+      {"[[body.hold]]\nnodes = \"hook\"\nrigid = true\n", "",
+       "body.load is wrong: nothing holds the part of the structure with node 0 at (-1, -1, 0) m along z, and loads"},
+      {"name = \"load\"", "name = \"load\"\nintegrator = \"implicitly\"", "did you mean implicit?"},
   };
   for (const auto& [from, to, message] : mistakes) {
     write(replaced(hanging_sheet, from, to));
