@@ -110,6 +110,12 @@ std::vector<io::Plot> plots_of(const Case& c, const io::CsvTable& history, const
   if (std::ranges::any_of(c.bodies, is_elastic)) {
     plots.push_back(body_plot(history, c, "centre_dx", "displacement of the centre, x [m]"));
   }
+  if (const Body* body = summarised_body(c)) {
+    for (const Probe& probe : probes_of(*body)) {
+      const bool is_frequency = probe.statistic == "strouhal" || probe.statistic == "period";
+      if (!is_frequency) plots.push_back(body_plot(history, c, probe.name, io::plain(probe.name)));
+    }
+  }
   if (c.measure.energy) plots.push_back(dissipation_plot(history, c, folder));
   if (c.measure.exact_velocity) plots.push_back(error_plot(history, folder));
   for (const Profile& profile : c.measure.profiles) plots.push_back(profile_plot(profile, folder));
