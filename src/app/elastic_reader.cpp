@@ -116,6 +116,13 @@ fem::ActiveStress read_active(Section section) {
   return active;
 }
 
+/// Whether a part of the body meets the fluid, if there is one.
+bool read_coupled(Section& section, bool in_flow) {
+  return !in_flow || section.get<bool>("coupled", {.doc = "whether this part meets the fluid; one that does not may "
+                                                          "leave the finest cells and is not dragged",
+                                                   .fallback = true});
+}
+
 constexpr const char* active_doc = "active stress, of elements that pull by themselves";
 
 /// A membrane has a thickness, a cable the law of one; the rest is solid.
@@ -143,12 +150,13 @@ fem::Region read_region(Section& section) {
   return region;
 }
 
-void read_regions(Section& section, ElasticBody& body) {
+void read_regions(Section& section, bool in_flow, ElasticBody& body) {
   section.each("region", "of the mesh, if not all of it is alike: density, material and so on stand here then",
                [&](Section& part) {
                  const std::string name = part.get<std::string>("name", {.doc = "of a physical group of the mesh"});
                  body.regions.push_back(read_region(part));
                  body.regions.back().elements = name;
+                 body.regions.back().coupled = read_coupled(part, in_flow);
                });
   const bool cables_alone = std::holds_alternative<fem::Mesh>(body.mesh);
   if ((body.regions.empty() && !cables_alone) || section.describing()) body.regions.push_back(read_region(section));
@@ -162,7 +170,7 @@ PointDescription read_point(Section& section) {
   return point;
 }
 
-CableDescription read_cable(Section& section) {
+CableDescription read_cable(Section& section, bool in_flow) {
   CableDescription cable;
   cable.name = section.get<std::string>("name", {.doc = "as a node set"});
   cable.from = section.get<std::string>("from", {.doc = "a node set: a cable begins at each of its nodes"});
@@ -174,6 +182,7 @@ CableDescription read_cable(Section& section) {
   const double density = read_density(section), area = read_section(section);
   cable.region = {cable.name, density, fem::Cable{read_cable_law(section), area}};
   cable.region.active = read_active(section.section("active", active_doc));
+  cable.region.coupled = read_coupled(section, in_flow);
   return cable;
 }
 
@@ -291,11 +300,11 @@ Body read_elastic(Section& section, const Case& c) {
   ElasticBody body;
   const std::string name = read_name(section);
   body.mesh = read_mesh_description(section);
-  read_regions(section, body);
+  read_regions(section, in_flow, body);
   section.each("point", "a node that is added to the mesh, with or without a mass",
                [&](Section& point) { body.points.push_back(read_point(point)); });
   section.each("cable", "cables that are added to the mesh",
-               [&](Section& cable) { body.cables.push_back(read_cable(cable)); });
+               [&](Section& cable) { body.cables.push_back(read_cable(cable, in_flow)); });
   read_loads(section, body);
   body.structure = read_structure(section);
   section.each("probe", "a displacement to be measured",

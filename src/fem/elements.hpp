@@ -29,8 +29,9 @@ class Elements {
   int count() const;
   /// As many threads as have enough elements each to be worth their barriers.
   int threads() const;
-  const std::vector<double>& nodal_volume() const { return nodal_volume_; }  ///< reference volume lumped [m^3]
-  const std::vector<double>& nodal_mass() const { return nodal_mass_; }      ///< own mass lumped [kg]
+  const std::vector<double>& nodal_volume() const { return nodal_volume_; }      ///< reference volume lumped [m^3]
+  const std::vector<double>& coupled_volume() const { return coupled_volume_; }  ///< of coupled regions alone [m^3]
+  const std::vector<double>& nodal_mass() const { return nodal_mass_; }          ///< own mass lumped [kg]
 
   /// The pressures and active stresses of `time` [s] act from now on.
   void set_time(double time);
@@ -82,7 +83,7 @@ class Elements {
   };
   std::vector<std::unique_ptr<ElementGroup>> groups_;
   std::vector<Faces> faces_;
-  std::vector<double> nodal_volume_, nodal_mass_;
+  std::vector<double> nodal_volume_, coupled_volume_, nodal_mass_;
   std::vector<int> first_slot_;      ///< of each node in `slot_`, its elements before its faces
   std::vector<int> first_load_;      ///< the first of a face
   std::vector<const double*> slot_;  ///< where the elements of a node keep their force on it

@@ -222,6 +222,7 @@ std::span<const Vec3> Structure::position() const { return data_->x; }
 std::span<const Vec3> Structure::velocity() const { return data_->v; }
 std::span<const double> Structure::own_mass() const { return data_->own_mass; }
 std::span<const double> Structure::volume() const { return data_->elements.nodal_volume(); }
+std::span<const double> Structure::coupled_volume() const { return data_->elements.coupled_volume(); }
 
 void Structure::set_state(std::span<const Vec3> position, std::span<const Vec3> velocity) {
   assert(position.size() == data_->x.size() && velocity.size() == data_->v.size());
