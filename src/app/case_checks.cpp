@@ -144,6 +144,12 @@ void check_fluid(const Case& c) {
 }
 
 void check_elastic(const Case& c, const std::string& key, const ElasticBody& body) {
+  if (body.contact && c.structure.at_rest) {
+    fail(c, key + ".contact", "needs a structure that moves, but structure.solver = \"relaxation\"");
+  }
+  if (body.contact && body.coupling.scheme == fsi::Scheme::peskin) {
+    fail(c, key + ".contact", "needs coupling.scheme = \"added_mass\"; in \"peskin\" the fluid alone moves the body");
+  }
   const auto [low, high] = body.structure.volume_ratio;
   if (low < 1.0 && high > 1.0) return;
   fail(c, key + ".volume_ratio",

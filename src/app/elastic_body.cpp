@@ -54,6 +54,8 @@ fem::Model make_model(const Case& c, const Body& description, const fem::Mesh& m
   model.loads.pressures = body.pressures;
   model.loads.gravity = body.gravity;
   model.loads.damping = body.damping;
+  model.loads.stiffness_damping = body.stiffness_damping;
+  model.loads.contact = body.contact;
   return model;
 }
 

@@ -243,6 +243,22 @@ Probe read_probe(Section& section) {
   return probe;
 }
 
+fem::ContactOptions read_contact(Section section) {
+  fem::ContactOptions contact;
+  contact.gap =
+      section.get<double>("gap", {.unit = "m",
+                                  .doc = "within which surfaces push each other apart; no less than half an element",
+                                  .range = positive});
+  contact.stiffness = section.get<double>(
+      "stiffness", {.doc = "squared frequency of two points in contact, over the largest of the elements",
+                    .fallback = contact.stiffness,
+                    .range = {.min = 0.0, .max = 1.0, .open = true}});
+  contact.damping = section.get<double>(
+      "damping",
+      {.doc = "of that motion, over the critical one", .fallback = contact.damping, .range = {.min = 0.0, .max = 1.0}});
+  return contact;
+}
+
 void read_loads(Section& section, ElasticBody& body) {
   section.each("hold", "nodes that are held near where they start",
                [&](Section& hold) { body.holds.push_back(read_hold(hold)); });
@@ -267,6 +283,14 @@ void read_loads(Section& section, ElasticBody& body) {
                   .fallback = Vec3(0.0, 0.0, 0.0)});
   body.damping = section.get<double>(
       "damping", {.unit = "1/s", .doc = "Rayleigh's, of the own mass", .fallback = 0.0, .range = not_negative});
+  body.stiffness_damping =
+      section.get<double>("stiffness_damping", {.unit = "s",
+                                                .doc = "Rayleigh's, of the stiffness; shortens the sub-step",
+                                                .fallback = 0.0,
+                                                .range = not_negative});
+  if (section.describing() || section.has("contact")) {
+    body.contact = read_contact(section.section("contact", "of the body's surfaces with each other and themselves"));
+  }
 }
 
 fem::StructureOptions read_structure(Section& body) {

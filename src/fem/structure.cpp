@@ -122,12 +122,17 @@ Structure::Data::Data(Model model)
   if (!(loads.damping >= 0.0)) {
     throw InputError(fmt::format("the structure's damping is {} 1/s; expected no negative number", loads.damping));
   }
+  if (!(loads.stiffness_damping >= 0.0)) {
+    throw InputError(fmt::format("the structure's stiffness-proportional damping is {} s; expected no negative number",
+                                 loads.stiffness_damping));
+  }
   for (const Hold& hold : loads.holds) hold_moves.push_back(hold.moves());
   loads_vary = elements.vary() || std::ranges::find(hold_moves, true) != hold_moves.end() ||
                std::ranges::any_of(loads.forces, [](const NodeLoad& load) { return vary(load.force); });
   for (const NodeLoad& load : loads.forces) {
     for (const int node : load.nodes) expect_node("a load", node, mesh.nodes.size());
   }
+  if (loads.stiffness_damping > 0.0) forced_at.resize(mesh.nodes.size());
   set_time(0.0);
   assign_points(every_node_alone(own_mass));
 }
@@ -162,7 +167,9 @@ void Structure::Data::assign_points(Inertia new_inertia) {
   points = std::move(new_points);
   hold_impulse.assign(points.size(), Vec3::Zero());
   compare_masses();
+  contact.reset();
   estimate_largest_frequency();
+  if (loads.contact) contact.emplace(*loads.contact, mesh, regions, points, std::pow(largest_frequency, 2));
 }
 
 // The mass that a node has in use is shared among its elements in proportion to their own. A hexahedron strains along

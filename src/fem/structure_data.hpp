@@ -1,35 +1,16 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// State of a Structure. Its unknowns are the coordinates of its points: a node's position, or of a pair {a, b} the mean
-//   x_m = s_a x_a + s_b x_b  and the difference  d = x_a - x_b,  s_a = m_a / (m_a + m_b), s_b = 1 - s_a.
+// State of a Structure.
 #pragma once
 
+#include <optional>
 #include <vector>
 
+#include "fem/contact.hpp"
 #include "fem/elements.hpp"
+#include "fem/point.hpp"
 #include "fem/structure.hpp"
 
 namespace drogue::fem {
-
-/// Mass that resists in a coordinate, own mass in it, and reference volume by which a tether holds it.
-struct Inertance {
-  double mass;    ///< [kg]
-  double own;     ///< [kg]
-  double volume;  ///< [m^3]
-};
-
-struct Point {
-  int a, b;  ///< nodes; b is -1 for a single one
-  double share_a, share_b;
-  Inertance mean, difference;
-  Vec3 weight;                      ///< [N]
-  std::array<const Hold*, 3> hold;  ///< along each axis, or nullptr
-
-  bool is_pair() const { return b >= 0; }
-  bool is_held() const { return hold[0] || hold[1] || hold[2]; }
-  Vec3 mean_of(const std::vector<Vec3>& field) const {
-    return is_pair() ? Vec3(share_a * field[a] + share_b * field[b]) : field[a];
-  }
-};
 
 struct Structure::Data {
   explicit Data(Model model);
@@ -45,6 +26,7 @@ struct Structure::Data {
 
   Inertia inertia;
   std::vector<Point> points;
+  std::optional<Contact> contact;
   struct ThinElement {
     std::array<int, 8> nodes;
     int direction;  ///< parent direction along which pairs face each other
@@ -57,6 +39,7 @@ struct Structure::Data {
   bool loads_vary = false;              ///< with time
   std::vector<Vec3> hold_displacement;  ///< of each hold now [m]
 
+  std::vector<Vec3> forced_at;  ///< where stiffness-proportional damping takes the forces of the elements [m]
   double largest_frequency = 0.0;
   int substeps = 0;
   Vec3 reaction = Vec3::Zero();
@@ -64,6 +47,8 @@ struct Structure::Data {
   void assign_points(Inertia inertia);
   void compare_masses();
   void estimate_largest_frequency();
+  void compute_forces();
+  void compute_contact();
   double stable_step() const;
   int substeps_for(double dt) const;
   void stop_rigidly_held();

@@ -58,18 +58,19 @@ void Structure::Data::move(std::size_t i, double dt) {
     v[node] += dv;
   };
   const auto mean_of = [&p](const std::vector<Vec3>& field) { return p.mean_of(field); };
+  const Vec3 load = contact && contact->touches() ? Vec3(p.weight + contact->force_on(i)) : p.weight;
   Vec3 force = nodal_force(p.a), dv;
   if (p.is_pair()) {
     const Vec3 force_b = nodal_force(p.b);
     const Vec3 dv_difference = velocity_change(p.difference, p.share_b * force - p.share_a * force_b, false,
                                                [&p](const auto& field) -> Vec3 { return field[p.a] - field[p.b]; });
     force += force_b;
-    force += p.weight;
+    force += load;
     dv = velocity_change(p.mean, force, true, mean_of);
     move_node(p.a, dv + p.share_b * dv_difference);
     move_node(p.b, dv - p.share_a * dv_difference);
   } else {
-    force += p.weight;
+    force += load;
     dv = velocity_change(p.mean, force, true, mean_of);
     move_node(p.a, dv);
   }
@@ -110,10 +111,44 @@ void Structure::Data::set_time(double time) {
 
 void Structure::Data::estimate_largest_frequency() {
   largest_frequency = std::sqrt(elements.largest_squared_frequency(x));
+  if (!contact) return;
+  contact->watch(x);
+  compute_contact();
 }
 
 double Structure::Data::stable_step() const {
-  return options.safety * 2.0 / (std::sqrt(1.0 + 2.0 * options.dissipation) * largest_frequency);
+  double squared_frequency = largest_frequency * largest_frequency;
+  double damping_rate = loads.stiffness_damping * squared_frequency;
+  if (contact) {
+    squared_frequency += contact->largest_squared_frequency();
+    damping_rate += contact->largest_damping_rate();
+  }
+  // The positive root of (2 phi - 1) omega^2 dt^2 + 2 c dt = 4.
+  const double a = (1.0 + 2.0 * options.dissipation) * squared_frequency, c = damping_rate;
+  return options.safety * 4.0 / (c + std::sqrt(c * c + 4.0 * a));
+}
+
+/// Of elements, for nodal_force(), and of contact. Work is shared.
+void Structure::Data::compute_forces() {
+  if (contact) contact->watch(x);
+  if (loads.stiffness_damping == 0.0) {
+    elements.compute_forces(x);
+  } else {
+#pragma omp for schedule(static)
+    for (std::size_t node = 0; node < x.size(); ++node) forced_at[node] = x[node] + loads.stiffness_damping * v[node];
+    elements.compute_forces(forced_at);
+  }
+  if (contact && !elements.out_of_bounds()) compute_contact();
+}
+
+/// After Contact::watch(). Work is shared.
+void Structure::Data::compute_contact() {
+  if (contact->is_outdated()) {
+#pragma omp barrier  // before one thread changes what the others are asking for
+#pragma omp single
+    contact->renew(x);
+  }
+  contact->compute_forces(x, v);
 }
 
 int Structure::Data::substeps_for(double dt) const {
@@ -154,7 +189,7 @@ void Structure::advance(double dt, double time) {
 #pragma omp single
       d.set_time(time + (n + 1) * substep);
     }
-    d.elements.compute_forces(d.x);
+    d.compute_forces();
     if (d.elements.out_of_bounds()) break;
 #pragma omp single nowait
     done = n + 1;

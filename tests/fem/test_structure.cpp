@@ -23,10 +23,6 @@ const double thickness_speed = std::sqrt(1346.15);
 
 Mesh thin_plate() { return make_plate({Vec3::Zero(), 0, {0.1, 0.08}, 5e-3, {7, 5, 1}}); }
 
-std::vector<Vec3> copy(std::span<const Vec3> field) { return {field.begin(), field.end()}; }
-
-double energy(const Structure& body) { return body.kinetic_energy() + body.elastic_energy(); }
-
 struct Momenta {
   Vec3 linear = Vec3::Zero(), angular = Vec3::Zero();
 };
@@ -45,15 +41,6 @@ Momenta momenta(const Structure& body) {
     sum.angular += ma * mb / (ma + mb) * distance.cross(closing);
   }
   return sum;
-}
-
-// Velocities of the leapfrog scheme stand half a sub-step behind; advanced to the positions they belong to an energy
-// that does not depend on the phase of a vibration.
-double synchronised_energy(const Structure& body, double substep) {
-  const auto force = internal_force(body, copy(body.position()));
-  double power = 0.0;
-  for (std::size_t i = 0; i < force.size(); ++i) power += force[i].dot(body.velocity()[i]);
-  return energy(body) + 0.5 * substep * power;
 }
 
 TEST(Structure, free_vibration_keeps_its_energy_over_a_hundred_periods) {
