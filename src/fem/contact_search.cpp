@@ -52,7 +52,7 @@ ContactSearch::ContactSearch(std::vector<ContactFace> faces, const ContactGraph&
   }
   if (!faces_.empty()) cell_ += extent / static_cast<double>(faces_.size());
   points_.assign(points.begin(), points.end());
-  leave_out_vicinities(graph, 2.0 * reach_);
+  leave_out_vicinities(graph, 1.5 * distance);
   // Until the first find() nothing is known.
   found_at_.assign(points_.size(), Vec3::Constant(INFINITY));
   moved_.assign(omp_get_max_threads(), Box{Vec3::Zero(), Vec3::Zero()});
@@ -80,8 +80,9 @@ bool ContactSearch::is_outdated() const {
     moved.lower = moved.lower.cwiseMin(by_thread.lower);
     moved.upper = moved.upper.cwiseMax(by_thread.upper);
   }
-  // No two points can have moved further relative to each other; also true of what is no number.
-  return !(moved.size().squaredNorm() <= margin_ * margin_);
+  constexpr double spent = 0.75;  // the rest is for what happens until the next watch()
+  // No two points can have moved further relative to each other. Holds of what is no number, too.
+  return !(moved.size().norm() <= spent * margin_);
 }
 
 Index3 ContactSearch::cell_of(const Vec3& place) const {

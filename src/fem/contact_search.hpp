@@ -24,8 +24,8 @@ using ContactGraph = std::vector<std::vector<std::pair<int, double>>>;
 
 class ContactSearch {
  public:
-  /// `place`: of all points in the reference state [m]; faces name some of them. Those of a face's `graph` within
-  /// 2 (distance + margin) along edges, and all that share an element with it, are never near it.
+  /// `place`: of all points in the reference state [m]; faces name some of them. Points within 1.5
+  /// distances of a corner along the `graph`, and all that share an element with one, are never near a face.
   ContactSearch(std::vector<ContactFace> faces, const ContactGraph& graph, std::span<const Vec3> place,
                 double distance);
 
@@ -46,7 +46,8 @@ class ContactSearch {
     }
     note(moved);
   }
-  /// After watch() by all threads: whether a point may have come near a face unnoticed.
+  /// After watch() by all threads: whether a point may have come near a face unnoticed, or may before the next watch(),
+  /// if that follows within a small part of the time since the last find().
   bool is_outdated() const;
 
   /// A point with faces that may be nearer than the distance.

@@ -47,7 +47,7 @@ struct Structure::Data {
   void assign_points(Inertia inertia);
   void compare_masses();
   void estimate_largest_frequency();
-  void compute_forces();
+  void compute_forces(int substep);
   void compute_contact();
   double stable_step() const;
   int substeps_for(double dt) const;

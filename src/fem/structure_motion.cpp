@@ -128,9 +128,10 @@ double Structure::Data::stable_step() const {
   return options.safety * 4.0 / (c + std::sqrt(c * c + 4.0 * a));
 }
 
-/// Of elements, for nodal_force(), and of contact. Work is shared.
-void Structure::Data::compute_forces() {
-  if (contact) contact->watch(x);
+/// Of elements, for nodal_force(), and of contact, at the start of a sub-step. Work is shared.
+void Structure::Data::compute_forces(int substep) {
+  constexpr int interval = 4;  // between looks at how far surfaces have moved, as many of which make up a margin
+  if (contact && substep % interval == 0) contact->watch(x);
   if (loads.stiffness_damping == 0.0) {
     elements.compute_forces(x);
   } else {
@@ -189,7 +190,7 @@ void Structure::advance(double dt, double time) {
 #pragma omp single
       d.set_time(time + (n + 1) * substep);
     }
-    d.compute_forces();
+    d.compute_forces(n);
     if (d.elements.out_of_bounds()) break;
 #pragma omp single nowait
     done = n + 1;

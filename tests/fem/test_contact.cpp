@@ -179,6 +179,61 @@ TEST(Contact, a_sheet_that_is_folded_onto_itself_does_not_pass_through) {
   EXPECT_GT(deepest, 0.05);
 }
 
+bool crosses(const Vec3& from, const Vec3& to, const Vec3& a, const Vec3& b, const Vec3& c) {
+  const auto volume = [](const Vec3& p, const Vec3& q, const Vec3& r, const Vec3& s) {
+    return (q - p).cross(r - p).dot(s - p);
+  };
+  if (volume(a, b, c, from) * volume(a, b, c, to) >= 0.0) return false;
+  const double u = volume(from, to, a, b), v = volume(from, to, b, c), w = volume(from, to, c, a);
+  return (u > 0.0 && v > 0.0 && w > 0.0) || (u < 0.0 && v < 0.0 && w < 0.0);
+}
+
+/// How often edges of triangles pass through triangles.
+int crossings(const Structure& body) {
+  const auto& x = body.position();
+  int count = 0;
+  for (const auto& face : body.mesh().triangles) {
+    for (const auto& other : body.mesh().triangles) {
+      for (int k = 0; k < 3; ++k) {
+        const int from = face[k], to = face[(k + 1) % 3];
+        if (std::ranges::find(other, from) != other.end() || std::ranges::find(other, to) != other.end()) continue;
+        count += crosses(x[from], x[to], x[other[0]], x[other[1]], x[other[2]]);
+      }
+    }
+  }
+  return count;
+}
+
+/// A dome of fabric falls on the ground, a held sheet, and is pushed together on the way.
+int crossings_of_collapse(const std::optional<ContactOptions>& contact) {
+  Mesh mesh = make_disk({Vec3(0, 0, 0.05), 2, 0.3, {12, 8}, true});
+  for (Vec3& p : mesh.nodes) p.z() += 0.15 * std::cos(std::numbers::pi / 0.6 * p.head<2>().norm());
+  Hold ground;
+  ground.rigid = true;
+  const int dome = static_cast<int>(mesh.nodes.size());
+  mesh = joined(std::move(mesh), square(Vec3::Zero(), 0.8, 24, true));
+  for (int node = dome; node < static_cast<int>(mesh.nodes.size()); ++node) ground.nodes.push_back(node);
+  Structure body = sheets(std::move(mesh),
+                          {.contact = contact, .dissipation = 0.2, .holds = {ground}, .gravity = Vec3(0, 0, -9.81)});
+  std::vector<Vec3> v(body.position().size(), Vec3::Zero());
+  for (int node = 0; node < dome; ++node) {
+    const Vec3 p = body.position()[node];
+    v[node] = Vec3(-6.0 * p.x(), -2.0 * p.y(), -1.0);
+  }
+  body.set_state(copy(body.position()), v);
+  int most = 0;
+  for (int step = 1; step <= 120; ++step) {
+    body.advance(2e-3, 0.0);
+    if (step % 40 == 0) most = std::max(most, crossings(body));
+  }
+  return most;
+}
+
+TEST(Contact, a_canopy_that_collapses_does_not_pass_through_itself) {
+  EXPECT_EQ(crossings_of_collapse(ContactOptions{.gap = 0.02, .damping = 0.3}), 0);
+  EXPECT_GT(crossings_of_collapse(std::nullopt), 100);
+}
+
 TEST(Contact, thin_solids_touch_as_pairs_whose_thickness_they_leave_alone) {
   const auto plate = [](double z) { return make_plate({Vec3(0.0, 0.0, z), 2, {0.1, 0.1}, 2e-3, {8, 8, 1}}); };
   Model model =
