@@ -69,7 +69,11 @@ Law read_law(Section& material) {
 }
 
 fem::MembraneMaterial read_membrane_material(Section& material, Law law, bool wrinkling) {
-  if (law == Law::fabric) return read_fabric(material);
+  if (law == Law::fabric) {
+    const fem::OrthotropicFabric fabric = read_fabric(material);
+    if (wrinkling) return fem::TensionField<fem::OrthotropicFabric>{fabric};
+    return fabric;
+  }
   if (law == Law::neo_hookean) {
     const fem::PlaneNeoHookean plane{read_neo_hookean(material)};
     if (wrinkling) return fem::TensionField<fem::PlaneNeoHookean>{plane};
@@ -89,9 +93,6 @@ fem::Membrane read_membrane(Section& section, Section& material, Law law) {
   if (membrane.warp.norm() == 0.0) section.fail("warp", "= [0, 0, 0] is no direction");
   const bool wrinkling = section.get<bool>(
       "wrinkling", {.doc = "whether a membrane folds rather than bear compression (tension field)", .fallback = false});
-  if (wrinkling && law == Law::fabric) {
-    section.fail("wrinkling", "= true needs an isotropic law; expected \"neo_hookean\" or \"saint_venant_kirchhoff\"");
-  }
   membrane.material = read_membrane_material(material, law, wrinkling);
   return membrane;
 }

@@ -101,8 +101,6 @@ TEST_F(StructureCase, mistakes_are_named_with_their_place) {
       {"name = \"load\"", "name = \"load\"\npressure = [{ region = \"top\", pressure = 1 }]",
        "body.load is wrong: the mesh has no region \"top\""},
       {"law = \"fabric\"", "law = \"fabrik\"", "did you mean fabric?"},
-      {"thickness = 1e-3\n", "thickness = 1e-3\nwrinkling = true\n",
-       "body.load.wrinkling = true needs an isotropic law"},
       {"name = \"load\"", "name = \"load\"\ncontact.gap = 0.1", "body.load.contact needs a structure that moves"},
       {"to = \"hook\"", "to = \"corners\"", "body.load.cable.lines is wrong: it joins a node with itself"},
       {"[[body.hold]]\nnodes = \"hook\"\nrigid = true\n", "", "no equilibrium"},
