@@ -77,7 +77,9 @@ void Elements::lump(std::size_t nodes) {
   nodal_volume_.assign(nodes, 0.0);
   coupled_volume_.assign(nodes, 0.0);
   nodal_mass_.assign(nodes, 0.0);
+  shared_mass_.assign(nodes, 0.0);
   for (const auto& group : groups_) {
+    group->add_masses(shared_mass_);
     std::vector<double> volume(nodes, 0.0);
     group->add_volumes(volume);
     for (std::size_t node = 0; node < nodes; ++node) {
@@ -183,9 +185,11 @@ void Elements::bound_frequencies(std::span<const Vec3> x) {
 }
 
 double Elements::largest_squared_frequency(std::span<const Vec3> x) {
-  bound_frequencies(x);
+  const std::vector<double> stiffness = nodal_stiffness(x);
   double largest = 0.0;
-  for (const auto& group : groups_) largest = std::max(largest, group->largest_squared_frequency());
+  for (std::size_t node = 0; node < stiffness.size(); ++node) {
+    largest = std::max(largest, stiffness[node] / shared_mass_[node]);
+  }
   return largest;
 }
 

@@ -54,7 +54,8 @@ class Elements {
   /// The element that was furthest out of bounds in the last compute_forces().
   Extreme worst() const;
 
-  /// Largest squared frequency of an element [1/s^2] at positions `x`, from above.
+  /// Largest squared frequency [1/s^2] at positions `x`, from above: K <= sum_e omega_e^2 M_e over the elements, so it
+  /// is at most the largest mean, over the elements of a node, of omega_e^2 weighted with their masses.
   double largest_squared_frequency(std::span<const Vec3> x);
   /// Diagonal matrix [N/m] that exceeds the stiffness matrix at positions `x`.
   std::vector<double> nodal_stiffness(std::span<const Vec3> x);
@@ -84,6 +85,7 @@ class Elements {
   std::vector<std::unique_ptr<ElementGroup>> groups_;
   std::vector<Faces> faces_;
   std::vector<double> nodal_volume_, coupled_volume_, nodal_mass_;
+  std::vector<double> shared_mass_;  ///< as ElementGroup::add_masses() lumps it [kg]
   std::vector<int> first_slot_;      ///< of each node in `slot_`, its elements before its faces
   std::vector<int> first_load_;      ///< the first of a face
   std::vector<const double*> slot_;  ///< where the elements of a node keep their force on it

@@ -135,7 +135,7 @@ struct TensionField<OrthotropicFabric> {
       const T deviation = 0.5 * (e.xx - e.yy), radius = square_root(deviation * deviation + e.xy * e.xy);
       slack = 0.5 * (e.xx + e.yy) + radius <= 0.0;
       taut = (trace(s) > 0.0) & (determinant(s) >= 0.0);
-      if (!all(slack | taut)) along = best_direction(law, e, radius);
+      if (!all(slack || taut)) along = best_direction(law, e, radius);
     }
   };
 };

@@ -60,6 +60,11 @@ struct Structure::Data {
   double displacement_of(const Hold& hold, int axis) const {
     return hold_displacement[&hold - loads.holds.data()][axis];
   }
+  struct Coordinate {
+    Vec3 position, reference, velocity;
+  };
+  Vec3 resisted_change(const Point& p, const Inertance& inertance, const Vec3& f, bool follows, const Coordinate& at,
+                       double dt) const;
   void move(std::size_t point, double dt);
   struct Balance {
     std::vector<Vec3> left;  ///< of each node [N]

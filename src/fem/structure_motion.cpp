@@ -29,29 +29,35 @@ double damped_change(double kick, double f, double damping, double stiffness, do
 
 }  // namespace
 
+/// Change of velocity over `dt` where a hold or damping resists. `follows`: whether the coordinate moves with its hold.
+Vec3 Structure::Data::resisted_change(const Point& p, const Inertance& inertance, const Vec3& f, bool follows,
+                                      const Coordinate& at, double dt) const {
+  const double kick = dt / inertance.mass, damping = loads.damping * inertance.own;
+  Vec3 dv;
+  for (int axis = 0; axis < 3; ++axis) {
+    const Hold* hold = p.hold[axis];
+    const double target = at.reference[axis] + (hold && follows ? displacement_of(*hold, axis) : 0.0);
+    if (hold == nullptr) {
+      dv[axis] = damped_change(kick, f[axis], damping, 0.0, 0.0, at.velocity[axis], dt);
+    } else if (!hold->rigid) {
+      dv[axis] = damped_change(kick, f[axis], damping + hold->damping * inertance.volume,
+                               hold->stiffness * inertance.volume, target - at.position[axis], at.velocity[axis], dt);
+    } else if (hold_moves[hold - loads.holds.data()] && follows) {  // to the target, by what move_node() does
+      dv[axis] = ((target - at.position[axis]) / dt - at.velocity[axis]) / (1.0 + options.dissipation);
+    } else {
+      dv[axis] = 0.0;
+    }
+  }
+  return dv;
+}
+
 void Structure::Data::move(std::size_t i, double dt) {
   const Point& p = points[i];
-  // `of` takes the coordinate out of a nodal field; `follows` tells whether it moves with its hold.
+  const bool is_free = !p.is_held() && loads.damping == 0.0;
+  // `of` takes the coordinate out of a nodal field.
   const auto velocity_change = [&](const Inertance& inertance, const Vec3& f, bool follows, const auto& of) -> Vec3 {
-    const double kick = dt / inertance.mass, damping = loads.damping * inertance.own;
-    Vec3 dv = kick * f;
-    if (!p.is_held() && damping == 0.0) return dv;
-    const Vec3 position = of(x), reference = of(mesh.nodes), velocity = of(v);
-    for (int axis = 0; axis < 3; ++axis) {
-      const Hold* hold = p.hold[axis];
-      const double target = reference[axis] + (hold && follows ? displacement_of(*hold, axis) : 0.0);
-      if (hold == nullptr) {
-        dv[axis] = damped_change(kick, f[axis], damping, 0.0, 0.0, velocity[axis], dt);
-      } else if (!hold->rigid) {
-        dv[axis] = damped_change(kick, f[axis], damping + hold->damping * inertance.volume,
-                                 hold->stiffness * inertance.volume, target - position[axis], velocity[axis], dt);
-      } else if (hold_moves[hold - loads.holds.data()] && follows) {  // to the target, by what move_node() does
-        dv[axis] = ((target - position[axis]) / dt - velocity[axis]) / (1.0 + options.dissipation);
-      } else {
-        dv[axis] = 0.0;
-      }
-    }
-    return dv;
+    if (is_free) return (dt / inertance.mass) * f;
+    return resisted_change(p, inertance, f, follows, {of(x), of(mesh.nodes), of(v)}, dt);
   };
   const auto move_node = [&](int node, const Vec3& dv) {
     x[node] += dt * (v[node] + (1.0 + options.dissipation) * dv);
