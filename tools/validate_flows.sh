@@ -58,7 +58,7 @@ with_order() {
   awk -F' *\\| *' '{
     split($3, word, " "); n = word[1] + 0; error = $4 + 0; name = $2; gsub(/[0-9]/, "", name)
     order = name == last && n != before && error > 0 ? sprintf("%.2f", log(former / error) / log(n / before)) : "-"
-    print $0 " " order " |"; last = name; before = n; former = error
+    printf "| %s | %s | %s | %s | %s |\n", $2, $3, $4, $5, order; last = name; before = n; former = error
   }'
 }
 

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 #include <omp.h>
 
+#include <algorithm>
 #include <cstdio>
 #include <memory>
 #include <numeric>
@@ -16,7 +17,7 @@ namespace drogue::bench {
 
 namespace {
 
-/// A small force on every cell of the first `share` of the finest leaves.
+/// A small force, as of a sheet, on four cells of every row of the first `share` of the finest leaves.
 class SteadyForce : public fluid::FineStepHook {
  public:
   SteadyForce(const amr::Forest& forest, double share) {
@@ -24,7 +25,15 @@ class SteadyForce : public fluid::FineStepHook {
     blocks_.resize(static_cast<std::size_t>(share * leaves.size()));
     std::iota(blocks_.begin(), blocks_.end(), leaves.begin);
   }
-  void on_fine_step(fluid::FineStep& step) override { step.f.open(blocks_); }
+  void on_fine_step(fluid::FineStep& step) override {
+    step.f.open(blocks_);
+#pragma omp parallel for schedule(static)
+    for (const int id : blocks_) {
+      float* row = step.f.block(id);
+      for (int i = 0; i < amr::block_size * amr::block_size; ++i, row += fluid::ForceField::stride_y)
+        std::fill_n(row + amr::block_size / 2, 4, 1e-9f);
+    }
+  }
 
  private:
   std::vector<int> blocks_;

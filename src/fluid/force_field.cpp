@@ -10,8 +10,12 @@ void ForceField::open(std::span<const int> blocks) {
     if (slot_[id] != amr::none) continue;
     slot_[id] = static_cast<int>(opened_.size());
     opened_.push_back(id);
-    if (storage_.size() < opened_.size()) storage_.push_back(std::make_unique<float[]>(block_floats));
-    std::fill_n(storage_[slot_[id]].get(), block_floats, 0.0f);
+    if (storage_.size() < opened_.size()) {
+      storage_.push_back(std::make_unique<float[]>(block_floats));
+      is_zero_.push_back(true);
+    }
+    if (!is_zero_[slot_[id]]) std::fill_n(storage_[slot_[id]].get(), block_floats, 0.0f);
+    is_zero_[slot_[id]] = false;
   }
 }
 

@@ -2,9 +2,13 @@
 // How the immersed boundary sees the finest level of a fluid without knowing which fluid it is.
 #pragma once
 
+#include <algorithm>
+#include <bit>
 #include <cstddef>
+#include <cstdint>
 #include <memory>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "amr/forest.hpp"
@@ -41,10 +45,26 @@ class ForceField {
   /// Closes every block; memory is kept for the next step.
   void clear();
 
+  /// Calls f(r, row) for the rows of an opened block that hold a force, r = 16 z + y, and empties them, so that they
+  /// need not be zeroed when the block is opened again. Distinct blocks may be drained by distinct threads.
+  template <class F>
+  void drain(int id, const F& f) {
+    float* row = block(id);
+    for (int r = 0; r < amr::block_size * amr::block_size; ++r, row += stride_y) {
+      std::uint32_t bits = 0;  // comparisons would not be vectorised
+      for (int i = 0; i < stride_y; ++i) bits |= std::bit_cast<std::uint32_t>(row[i]);
+      if (bits == 0) continue;
+      f(r, std::as_const(row));
+      std::fill_n(row, stride_y, 0.0f);
+    }
+    is_zero_[slot_[id]] = true;
+  }
+
  private:
   std::vector<int> slot_;    // block id -> storage
   std::vector<int> opened_;  // block ids, in the order of their storage
   std::vector<std::unique_ptr<float[]>> storage_;
+  std::vector<std::uint8_t> is_zero_;  // by storage
 };
 
 }  // namespace drogue::fluid

@@ -274,29 +274,12 @@ class BlockKernel {
       published_[0][m][y] = r.m[m][0];
       published_[1][m][y] = r.m[m][lanes - 1];
     }
-    if (blocks_.target_inner)
-      for (int m = 0; m < moments; ++m) ends_.put(m, y, r.m[m]);
+    if (blocks_.sums && blocks_.sums->wants(y, z)) blocks_.sums->add(r, y, z);
     if (y < n - 1) return;
-    if (blocks_.target_inner) publish_inner(z);
     for (int side = 0; side < 2; ++side) {
       Row<Real> column;
       for (int m = 0; m < moments; ++m) column.m[m] = load<Real>(published_[side][m]);
       Layout::store_row_streaming(blocks_.target_columns + (side * n + z) * Layout::bytes, column);
-    }
-  }
-
-  /// The layers of columns behind the outermost.
-  void publish_inner(int z) {
-    for (int side = 0; side < 2; ++side) {
-      const int depth = blocks_.depth[side];
-      if (depth == 1) continue;
-      std::array<Row<Real>, RowEnds<Real>::depth> layer;
-      for (int m = 0; m < moments; ++m) {
-        const auto columns = ends_.columns(side, m);
-        for (int i = 1; i < depth; ++i) layer[i].m[m] = columns[side ? ends_.depth - 1 - i : i];
-      }
-      std::byte* to = blocks_.target_inner + (side * n + z) * (most_layers - 1) * Layout::bytes;
-      for (int i = 1; i < depth; ++i) Layout::store_row_streaming(to + (i - 1) * Layout::bytes, layer[i]);
     }
   }
 
@@ -325,7 +308,6 @@ class BlockKernel {
   alignas(sizeof(V)) Real published_[2][moments][lanes];  // [x side][moment][y]
   XHalo halo_;
   Scratch scratch_;
-  RowEnds<Real> ends_;  // used where levels meet
 };
 
 template <class S, fluid::Collision collision, fluid::EddyViscosity eddy = fluid::EddyViscosity::none>

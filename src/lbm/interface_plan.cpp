@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "lbm/lines.hpp"
+
 namespace drogue::lbm {
 namespace {
 
@@ -42,7 +44,7 @@ class InterfaceLevel {
     const int outer = beside(inner, unit(axis, face & 1 ? 1 : -1));
     InterfaceFace result{inner, outer, face, {}};
     for (int e = 0; e < 4; ++e) {
-      const int next = beside(inner, unit(e < 2 ? lane_axis(axis) : row_axis(axis), e & 1 ? 1 : -1));
+      const int next = beside(inner, unit(e < 2 ? along_axis(axis) : across_axis(axis), e & 1 ? 1 : -1));
       result.open[e] = next != amr::none && forest_.block(next).kind == amr::Kind::boundary && is_open(next);
     }
     return result;
@@ -111,26 +113,24 @@ std::vector<DiagonalTerm> diagonal_terms(const amr::Forest& forest, int level, c
 Interface plan_interface(const amr::Forest& forest, const fluid::Specification& specification, int coarse) {
   const InterfaceLevel above(forest, specification, amr::Kind::leaf, amr::Kind::parent);
   const InterfaceLevel below(forest, specification, amr::Kind::ghost, amr::Kind::leaf);
-  Interface plan{{}, diagonal_terms(forest, coarse, above), diagonal_terms(forest, coarse + 1, below)};
+  Interface plan{{ByLeaf<InterfaceFace>(forest, coarse), diagonal_terms(forest, coarse, above)},
+                 {ByLeaf<InterfaceFace>(forest, coarse + 1), diagonal_terms(forest, coarse + 1, below)}};
   const auto leaves = forest.range(coarse, amr::Kind::leaf);
-  for (int id = leaves.begin; id < leaves.end; ++id) {
-    Interface::Host host;
+  for (int id = leaves.begin; id < leaves.end; ++id)
     for (int f = 0; f < 6; ++f) {
       const int axis = f / 2;
       if (above.side(above.beside(id, unit(axis, f & 1 ? 1 : -1))) != Side::outer) continue;
-      Interface::Face face{above.face(id, f), {}};
+      plan.coarse.faces[id].push_back(above.face(id, f));
       for (int quarter = 0; quarter < 4; ++quarter) {
         Index3 ghost = forest.block(id).index;
         for (int a = 0; a < 3; ++a) ghost[a] *= 2;
         ghost[axis] += f & 1;
-        ghost[lane_axis(axis)] += quarter & 1;
-        ghost[row_axis(axis)] += quarter >> 1;
-        face.fine[quarter] = below.face(forest.find(coarse + 1, ghost), f);
+        ghost[along_axis(axis)] += quarter & 1;
+        ghost[across_axis(axis)] += quarter >> 1;
+        const InterfaceFace face = below.face(forest.find(coarse + 1, ghost), f);
+        plan.fine.faces[face.outer].push_back(face);
       }
-      host.push_back(face);
     }
-    if (!host.empty()) plan.hosts.push_back(std::move(host));
-  }
   return plan;
 }
 

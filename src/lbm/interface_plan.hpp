@@ -8,8 +8,8 @@
 #include <array>
 #include <vector>
 
-#include "amr/forest.hpp"
 #include "fluid/specification.hpp"
+#include "lbm/by_leaf.hpp"
 
 namespace drogue::lbm {
 
@@ -17,7 +17,7 @@ namespace drogue::lbm {
 struct InterfaceFace {
   int inner, outer;
   int face;                  ///< 0 to 5, of the inner block
-  std::array<bool, 4> open;  ///< ends at an open boundary: low and high along the lanes, then along the rows
+  std::array<bool, 4> open;  ///< ends at an open boundary: low and high along lines, then across them (lbm/lines.hpp)
 };
 
 /// A line of 16 cells of a block, from `first` along an axis, whose populations of one diagonal direction add to the
@@ -27,20 +27,15 @@ struct DiagonalTerm {
   Index3 first, direction;
 };
 
-/// All that crosses between two levels.
-struct Interface {
-  struct Face {
-    InterfaceFace coarse;
-    std::array<InterfaceFace, 4> fine;  ///< lanes fastest
-  };
-  using Host = std::vector<Face>;  ///< all faces of one coarse leaf, which is theirs to change
-  std::vector<Host> hosts;
-  std::vector<DiagonalTerm> coarse, fine;
+/// What crosses between two levels, as one of them sees it.
+struct InterfaceSide {
+  ByLeaf<InterfaceFace> faces;
+  std::vector<DiagonalTerm> diagonals;
 };
 
-/// Axes of the lanes and the rows of a face that is normal to `axis`.
-constexpr int lane_axis(int axis) { return axis == 0 ? 1 : 0; }
-constexpr int row_axis(int axis) { return axis == 2 ? 1 : 2; }
+struct Interface {
+  InterfaceSide coarse, fine;
+};
 
 /// The interface between `coarse` and `coarse` + 1.
 Interface plan_interface(const amr::Forest& forest, const fluid::Specification& specification, int coarse);

@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <cstdlib>
+#include <map>
+#include <utility>
 
 namespace drogue::lbm {
 namespace {
@@ -94,33 +96,37 @@ Sides available_sides(const amr::Forest& forest, int id, Sides sides) {
   return sides;
 }
 
-void close_target(TransferPlan& plan) {
-  if (plan.first.back() != static_cast<int>(plan.job.size())) plan.first.push_back(static_cast<int>(plan.job.size()));
-}
+/// Blocks a rim is interpolated from: pairs along each axis, {0 or 1 in x, y, z}; of an axis without pairs the same
+/// twice.
+using Sources = std::array<std::array<std::array<int, 2>, 2>, 2>;  // [x][y][z]
 
-/// A job for the part `box` of the rim of `target` that faces `offset`: columns if that is across an x face.
-ResampleJob job_for(int target, const Index3& offset, const CellBox& box) {
-  ResampleJob job{};
-  job.target = target;
-  job.normal = offset[0] != 0 ? 0 : offset[1] != 0 ? 1 : 2;
-  const auto range = [&](int a) { return ResampleJob::Range{box.begin[a], box.end[a]}; };
-  job.layers = range(job.normal);
-  job.lines = range(job.across());
-  job.cells = range(job.along());
-  return job;
-}
+/// How the rims of a ghost are interpolated.
+struct GhostStencil {
+  std::array<int, 3> rule;  ///< by axis
+  Sources source;
+};
 
-/// Sets the source of a job from a function of the place in the pairs, {0 or 1 in x, y, z}.
-template <class F>
-void set_source(ResampleJob& job, const F& id_at) {
-  for (int i = 0; i < 8; ++i) {
-    Index3 place;
-    place[job.normal] = i >> 2;
-    place[job.across()] = i >> 1 & 1;
-    place[job.along()] = i & 1;
-    job.source[i] = id_at(place);
+GhostStencil stencil_of(const amr::Forest& forest, const amr::Block& ghost) {
+  Index3 half;
+  Sides used;
+  for (int a = 0; a < 3; ++a) {
+    half[a] = ghost.index[a] & 1;
+    used[a] = {half[a] == 0, half[a] == 1};
   }
+  const Sides available = available_sides(forest, ghost.parent, used);
+  GhostStencil stencil;
+  for (int a = 0; a < 3; ++a) stencil.rule[a] = 2 * half[a] + available[a][half[a]];
+  for (int i = 0; i < 8; ++i) {
+    const Index3 place{i & 1, i >> 1 & 1, i >> 2};
+    Index3 o;
+    for (int a = 0; a < 3; ++a) o[a] = available[a][half[a]] ? place[a] + half[a] - 1 : 0;
+    stencil.source[place[0]][place[1]][place[2]] =
+        forest.block(ghost.parent).neighbour[amr::neighbour_slot(o[0], o[1], o[2])];
+  }
+  return stencil;
 }
+
+int normal_to(const Index3& offset) { return offset[0] != 0 ? 0 : offset[1] != 0 ? 1 : 2; }
 
 bool touches_boundary(const amr::Forest& forest, int id) {
   for (const int neighbour : forest.block(id).neighbour)
@@ -128,102 +134,137 @@ bool touches_boundary(const amr::Forest& forest, int id) {
   return false;
 }
 
+/// Collects sums of layers, each once.
+class BlockSums {
+ public:
+  /// Of what a stencil along `normal` reads, for an output in the layer `output`, from the first or second block of
+  /// its pair; `none` if it reads nothing there.
+  int add(int block, int normal, int rule, int output, int part, const Range& lines) {
+    const Axis axis = axis_of_rule(rule);
+    LayerSum sum{normal, 0, 0, {}};
+    for (int k = 0; k < axis.taps; ++k) {
+      const int layer = axis.start[output] + k;
+      if (layer / n != part) continue;
+      if (sum.taps == 0) sum.first = layer % n;
+      sum.weight[sum.taps++] = axis.weight[output][k];
+    }
+    if (sum.taps == 0) return amr::none;
+    const auto [known, is_new] = number_.try_emplace({block, normal, rule, part}, static_cast<int>(sum_.size()));
+    if (is_new) sum_.push_back({block, sum, lines});
+    Range& all = sum_[known->second].lines;
+    all = {std::min(all.begin, lines.begin), std::max(all.end, lines.end)};
+    return known->second;
+  }
+  std::vector<BlockSum> take() { return std::move(sum_); }
+
+ private:
+  std::map<std::array<int, 4>, int> number_;
+  std::vector<BlockSum> sum_;
+};
+
 /// Parents of `level` of which a part at an x face is read along x, by the interpolation onto a y or z face: where a
 /// host lies beside them. (If a leaf lies between, that part is at a y or z face too.)
 std::vector<bool> read_along_x(const amr::Forest& forest, int level) {
   std::vector<bool> read(forest.size(), false);
   const auto is_parent = [&](int id) { return forest.block(id).kind == amr::Kind::parent; };
-  for (const ResampleJob& job : plan_interpolation(forest, level + 1).job) {
-    if (job.normal == 0) continue;
+  const auto ghosts = forest.range(level + 1, amr::Kind::ghost);
+  for (int id = ghosts.begin; id < ghosts.end; ++id) {
+    const auto [rule, source] = stencil_of(forest, forest.block(id));
     std::array<int, 3> host;  // its place in the pairs
-    for (int a = 0; a < 3; ++a) host[a] = 1 - job.rule[a] / 2;
-    const int beside = 1 - host[2];
-    if (!is_parent(job.source[4 * host[0] + 2 * host[1] + beside])) continue;
-    for (int i = 0; i < 4; ++i)
-      if (is_parent(job.source[2 * i + beside])) read[job.source[2 * i + beside]] = true;
+    for (int a = 0; a < 3; ++a) host[a] = 1 - rule[a] / 2;
+    const auto& beside = source[1 - host[0]];
+    for (const auto& [offset, box] : rims(leaf_offsets(forest, id, 2), 1, n)) {
+      if (normal_to(offset) == 0 || !is_parent(beside[host[1]][host[2]])) continue;
+      for (const auto& along_y : beside)
+        for (const int block : along_y)
+          if (is_parent(block)) read[block] = true;
+    }
   }
   return read;
 }
 
 }  // namespace
 
-TransferPlan plan_interpolation(const amr::Forest& forest, int level) {
-  TransferPlan plan{{}, {0}};
+InterpolationPlan plan_interpolation(const amr::Forest& forest, int level) {
+  InterpolationPlan plan;
+  BlockSums sums;
   const auto ghosts = forest.range(level, amr::Kind::ghost);
   for (int id = ghosts.begin; id < ghosts.end; ++id) {
-    const amr::Block& ghost = forest.block(id);
-    Index3 half;
-    Sides used;
-    for (int a = 0; a < 3; ++a) {
-      half[a] = ghost.index[a] & 1;
-      used[a] = {half[a] == 0, half[a] == 1};
-    }
-    const Sides available = available_sides(forest, ghost.parent, used);
+    const auto [rule, source] = stencil_of(forest, forest.block(id));
     for (const auto& [offset, box] : rims(leaf_offsets(forest, id, 2), 1, n)) {
-      ResampleJob job = job_for(id, offset, box);
-      const auto rule = [&](int a) { return 2 * half[a] + available[a][half[a]]; };
-      job.rule = {rule(job.normal), rule(job.across()), rule(job.along())};
-      job.also_rows = touches_boundary(forest, id);
-      set_source(job, [&](const Index3& place) {
-        Index3 o;
-        for (int a = 0; a < 3; ++a) o[a] = available[a][half[a]] ? place[a] + half[a] - 1 : 0;
-        return forest.block(ghost.parent).neighbour[amr::neighbour_slot(o[0], o[1], o[2])];
-      });
+      const int normal = normal_to(offset), across = across_axis(normal), along = along_axis(normal);
+      const auto range = [&, &box = box](int a) { return Range{box.begin[a], box.end[a]}; };
+      RimJob job{id,
+                 normal,
+                 box.begin[normal],
+                 range(across),
+                 range(along),
+                 rule[across],
+                 rule[along],
+                 {},
+                 normal == 2 || (normal == 0 && touches_boundary(forest, id))};
+      const Axis axis = axis_of_rule(job.across_rule);
+      const int first = axis.start[job.lines.begin], end = axis.start[job.lines.end - 1] + axis.taps;
+      for (int i = 0; i < 8; ++i) {
+        Index3 place;
+        place[normal] = i >> 2;
+        place[across] = i >> 1 & 1;
+        place[along] = i & 1;
+        const Range lines{std::clamp(first - place[across] * n, 0, n), std::clamp(end - place[across] * n, 0, n)};
+        job.sum[place[across]][place[along]][place[normal]] =
+            sums.add(source[place[0]][place[1]][place[2]], normal, rule[normal], job.layer, place[normal], lines);
+      }
+      for (auto& pair : job.sum)
+        for (auto& [one, other] : pair)
+          if (one == amr::none) std::swap(one, other);
       plan.job.push_back(job);
     }
-    close_target(plan);
+    const int jobs = static_cast<int>(plan.job.size());
+    if (plan.first.back() != jobs) plan.first.push_back(jobs);
   }
+  plan.sum = sums.take();
   return plan;
 }
 
-TransferPlan plan_restriction(const amr::Forest& forest, int level) {
-  TransferPlan plan{{}, {0}};
-  const std::vector<bool> also_rows = read_along_x(forest, level);
-  const auto parents = forest.range(level, amr::Kind::parent);
-  for (int id = parents.begin; id < parents.end; ++id) {
-    for (const auto& [offset, box] : rims(leaf_offsets(forest, id, 3), depth, n)) {
-      ResampleJob job = job_for(id, offset, box);
-      job.rule.fill(restriction_rule);
-      job.also_rows = also_rows[id] || touches_boundary(forest, id);
-      set_source(job, [&, o = offset](Index3 place) {
-        for (int a = 0; a < 3; ++a)
-          if (o[a] != 0) place[a] = o[a] > 0;  // the children that touch the leaf
-        return forest.block(id).child[4 * place[2] + 2 * place[1] + place[0]];
-      });
-      // a job reads up to 16 lines
-      for (const int begin : {0, n / 2}) {
-        ResampleJob part = job;
-        part.lines = {std::max(job.lines.begin, begin), std::min(job.lines.end, begin + n / 2)};
-        if (part.lines.begin < part.lines.end) plan.job.push_back(part);
+RestrictionPlan plan_restriction(const amr::Forest& forest, int level) {
+  const auto parents = forest.range(level - 1, amr::Kind::parent);
+  const std::vector<bool> along_x = read_along_x(forest, level - 1);
+  std::vector<bool> in_columns(forest.size(), false);  // blocks whose columns are interpolated
+  for (const BlockSum& of_block : plan_interpolation(forest, level).sum)
+    if (of_block.sum.normal == 0) in_columns[of_block.block] = true;
+  RestrictionPlan plan(forest, level);
+  for (int id = parents.begin; id < parents.end; ++id)
+    for (const auto& [offset, box] : rims(leaf_offsets(forest, id, 3), depth, n))
+      for (int octant = 0; octant < 8; ++octant) {
+        bool touches = true;
+        for (int a = 0; a < 3; ++a) touches &= offset[a] == 0 || (octant >> a & 1) == (offset[a] > 0);
+        if (!touches) continue;
+        const int normal = normal_to(offset), face = 2 * normal + (offset[normal] > 0);
+        auto& faces = plan[forest.block(id).child[octant]];
+        if (std::ranges::any_of(faces, [&](const RimFace& rim) { return rim.face == face; })) continue;
+        const bool copy = normal == 2 || (normal == 1 ? in_columns[id] : along_x[id] || touches_boundary(forest, id));
+        faces.push_back({face, copy});
       }
-    }
-    close_target(plan);
-  }
   return plan;
 }
 
-std::vector<ColumnDepth> column_depths(const amr::Forest& forest) {
-  std::vector<ColumnDepth> result(forest.size(), {1, 1});
-  const auto keep = [&](int id, int x) {
-    const int side = x >= n / 2, layer = side ? n - 1 - x : x;
-    result[id][side] = std::max(result[id][side], layer + 1);
-  };
-  const auto keep_for = [&](const TransferPlan& plan) {
-    for (const ResampleJob& job : plan.job) {
-      if (job.normal != 0) continue;
-      const Axis axis = axis_of_rule(job.rule[0]);
-      for (int i = job.layers.begin; i < job.layers.end; ++i) {
-        keep(job.target, i);
-        for (int x = axis.start[i]; x < axis.start[i] + axis.taps; ++x)
-          for (int k = 0; k < 4; ++k) keep(job.source[x / n * 4 + k], x % n);
-      }
-    }
-  };
-  for (int level = 0; level < forest.levels(); ++level) {
-    if (level > 0) keep_for(plan_interpolation(forest, level));
-    if (level < forest.finest()) keep_for(plan_restriction(forest, level));
+bool edge_is_in_rows(const amr::Forest& forest, int id, const Index3& towards) {
+  const amr::Kind kind = forest.block(id).kind;
+  if (kind != amr::Kind::ghost && kind != amr::Kind::parent) return false;
+  return kind_at(forest, id, {towards[0], 0, 0}) != amr::Kind::leaf &&
+         kind_at(forest, id, {0, towards[1], 0}) == amr::Kind::leaf;
+}
+
+std::vector<bool> deep_blocks(const amr::Forest& forest) {
+  std::vector<bool> deep(forest.size(), false);
+  for (int level = 1; level < forest.levels(); ++level) {
+    const RestrictionPlan restriction = plan_restriction(forest, level);
+    const auto leaves = forest.range(level, amr::Kind::leaf);
+    for (int leaf = leaves.begin; leaf < leaves.end; ++leaf)
+      for (const RimFace& rim : restriction[leaf])
+        if (rim.face < 2) deep[forest.block(leaf).parent] = true;
   }
-  return result;
+  return deep;
 }
 
 }  // namespace drogue::lbm

@@ -7,6 +7,8 @@
 
 #include <array>
 #include <cstddef>
+#include <cstdint>
+#include <cstring>
 #include <utility>
 #include <vector>
 
@@ -54,6 +56,18 @@ struct HalfStress {
       _mm_store_si128(reinterpret_cast<__m128i*>(p + i), _mm256_cvtps_ph(_mm256_load_ps(f + i), 0));
 #endif
   }
+  /// Half of a vector.
+  static void store_half_scaled(Element* p, HalfVec<float> v) {
+    alignas(32) float f[lanes / 2];
+    std::memcpy(f, &v, sizeof v);
+    _mm_storeu_si128(reinterpret_cast<__m128i*>(p), _mm256_cvtps_ph(_mm256_load_ps(f), 0));
+  }
+  /// What load_scaled() finds after store().
+  static Vec<float> as_stored(Vec<float> v) {
+    alignas(32) Element e[lanes];
+    store(e, v);
+    return load_scaled(e);
+  }
   static void store_streaming(Element* p, Vec<float> v) {
 #ifdef __AVX512F__
     _mm256_stream_si256(reinterpret_cast<__m256i*>(p),
@@ -76,6 +90,8 @@ struct PlainStress {
   static Vec<T> load_scaled(const T* p) { return lbm::load(p); }
   static void store(T* p, Vec<T> v) { lbm::store(p, v); }
   static void store_scaled(T* p, Vec<T> v) { lbm::store(p, v); }
+  static void store_half_scaled(T* p, HalfVec<T> v) { store_unaligned(p, v); }
+  static Vec<T> as_stored(Vec<T> v) { return v; }
   static void store_streaming(T* p, Vec<T> v) { lbm::store_streaming(p, v); }
   static T get(T e) { return e; }
   static T put(T s) { return s; }
@@ -131,6 +147,13 @@ struct RowLayout {
     else
       S::store_scaled(stress(row, m), v);
   }
+  /// The lower or upper eight cells of a row.
+  static void store_half_scaled(std::byte* row, int m, int half, HalfVec<Real> v) {
+    if (m < 4)
+      store_unaligned(macro(row, m) + half * lanes / 2, v);
+    else
+      S::store_half_scaled(stress(row, m) + half * lanes / 2, v);
+  }
   static Real get(const std::byte* row, int m, int x) { return m < 4 ? macro(row, m)[x] : S::get(stress(row, m)[x]); }
   static void put(std::byte* row, int m, int x, Real value) {
     if (m < 4)
@@ -180,57 +203,26 @@ struct RowLayout {
   }
 };
 
-/// The last cells at both ends of the rows of a plane, to be read as columns along y.
-template <class Real>
-class RowEnds {
- public:
-  static constexpr int depth = lanes / 2;
-
-  void put(int m, int y, Vec<Real> row) {
-    store_unaligned<Real>(end_[0][m][y % depth] + y / depth * depth, low_half<Real>(row));
-    store_unaligned<Real>(end_[1][m][y % depth] + y / depth * depth, high_half<Real>(row));
-  }
-
-  /// Columns of moment m along y: x = 0, 1, .. 7 (side 0) or 8, .. 15 (side 1).
-  std::array<Vec<Real>, depth> columns(int side, int m) const {
-    std::array<Vec<Real>, depth> v;
-    for (int i = 0; i < depth; ++i) v[i] = load<Real>(end_[side][m][i]);
-    // vector i, lane (j, k) holds row i + 8 j and cell k: exchange i and k bit by bit
-    for (int bit = depth / 2; bit > 0; bit /= 2)
-      for (int i = 0; i < depth; ++i)
-        if (!(i & bit)) exchange<Real>(v[i], v[i | bit], bit);
-    return v;
-  }
-
- private:
-  alignas(128) Real end_[2][moments][depth][lanes];
-};
-
-/// Layers of cells at the two x faces of a block that are kept as columns.
-using ColumnDepth = std::array<int, 2>;
-inline constexpr int most_layers = 5;
-
 /// Moments of all blocks of a forest at one time level. The cells at the two x faces are kept once more, as columns
 /// along y, [x face][z][moment][y]: a neighbour that needs them would else touch every cache line of the block, because
-/// a row lies along x. Blocks that are resampled across an x face keep more layers, [x face][z][layer - 1][moment][y].
-/// Who changes such a cell of a leaf calls refresh_columns(). Of ghosts and parents the rims at the x faces exist as
-/// columns alone, unless level_transfer.hpp says otherwise.
+/// a row lies along x. `deep` blocks, which are interpolated across an x face, keep the next layer as well.
+/// Who changes such a cell of a leaf calls add(), refresh_columns() or velocity_to_columns(). Of ghosts and parents the
+/// rims at the x faces exist as columns alone, unless level_transfer.hpp says otherwise.
 template <class S>
 class MomentField {
  public:
   using Layout = RowLayout<S>;
   using Real = typename S::Real;
   static constexpr std::size_t column_bytes = 2 * amr::block_size * Layout::bytes;
-  static constexpr std::size_t inner_bytes = (most_layers - 1) * column_bytes;
 
-  /// `depth`: of each block; one layer each if empty.
-  explicit MomentField(int blocks, std::vector<ColumnDepth> depth = {})
-      : rows_(blocks * Layout::block_bytes), columns_(blocks * column_bytes), depth_(std::move(depth)) {
-    depth_.resize(blocks, {1, 1});
+  explicit MomentField(int blocks, std::vector<bool> deep = {})
+      : rows_(blocks * Layout::block_bytes), columns_(blocks * column_bytes), deep_(std::move(deep)) {
+    deep_.resize(blocks, false);
+    changed_.resize(blocks, false);
     inner_of_.reserve(blocks);
-    std::size_t deep = 0;
-    for (const auto& [low, high] : depth_) inner_of_.push_back(low > 1 || high > 1 ? deep++ : 0);
-    inner_ = HugeArray(deep * inner_bytes);
+    std::size_t count = 0;
+    for (const bool is_deep : deep_) inner_of_.push_back(is_deep ? count++ : 0);
+    inner_ = HugeArray(count * column_bytes);
   }
 
   std::byte* block(int id) { return rows_.data() + id * Layout::block_bytes; }
@@ -239,62 +231,78 @@ class MomentField {
   const std::byte* row(int id, int y, int z) const { return block(id) + (z * amr::block_size + y) * Layout::bytes; }
   std::byte* columns(int id) { return columns_.data() + id * column_bytes; }
   const std::byte* columns(int id) const { return columns_.data() + id * column_bytes; }
-  std::byte* inner_columns(int id) { return inner_.data() + inner_of_[id] * inner_bytes; }
-  const ColumnDepth& depth(int id) const { return depth_[id]; }
 
-  /// The column at (x, z); x must lie within the depth of a face.
+  /// The column at (x, z); x must be 0 or 15, of a deep block 0, 1, 14 or 15.
   std::byte* column(int id, int x, int z) { return const_cast<std::byte*>(std::as_const(*this).column(id, x, z)); }
   const std::byte* column(int id, int x, int z) const {
     const int side = x >= amr::block_size / 2, layer = side ? amr::block_size - 1 - x : x;
-    const int at = side * amr::block_size + z;
-    if (layer == 0) return columns(id) + at * Layout::bytes;
-    return inner_.data() + inner_of_[id] * inner_bytes + (at * (most_layers - 1) + layer - 1) * Layout::bytes;
+    const std::byte* first = layer == 0 ? columns(id) : inner_.data() + inner_of_[id] * column_bytes;
+    return first + (side * amr::block_size + z) * Layout::bytes;
   }
 
   /// Adds to density or velocity of one cell of a leaf; returns by how much it changed, which rounding decides.
   double add(int id, const Index3& cell, int m, Real value) {
+    changed_[id] = true;
     const auto [x, y, z] = cell;
     Real& sum = Layout::macro(row(id, y, z), m)[x];
     const Real before = sum;
     sum += value;
-    if (x < depth_[id][0] || x >= amr::block_size - depth_[id][1]) Layout::macro(column(id, x, z), m)[y] = sum;
+    if (x == 0 || x == amr::block_size - 1) Layout::macro(column(id, x, z), m)[y] = sum;
     return double{sum} - double{before};
   }
 
-  void refresh_columns(int id) {
-    RowEnds<Real> ends;
-    for (int z = 0; z < amr::block_size; ++z) {
-      for (int y = 0; y < amr::block_size; ++y)
-        for (int m = 0; m < moments; ++m) ends.put(m, y, Layout::load(row(id, y, z), m));
-      for (int side = 0; side < 2; ++side)
-        for (int m = 0; m < moments; ++m) {
-          const auto columns = ends.columns(side, m);
-          for (int layer = 0; layer < depth_[id][side]; ++layer) {
-            const int i = side ? RowEnds<Real>::depth - 1 - layer : layer;
-            Layout::store(column(id, side * amr::block_size / 2 + i, z), m, columns[i]);
-          }
-        }
+  /// The same for a line of 16 cells at a face of a leaf, 0 to 5: number `r` of the columns at an x face, of the rows
+  /// at the others. Returns the sum of the changes.
+  double add_at_face(int id, int face, int r, int m, Real value) {
+    changed_[id] = true;
+    const int axis = face / 2, layer = face & 1 ? amr::block_size - 1 : 0;
+    const int y = axis == 1 ? layer : r, z = axis == 2 ? layer : r;
+    Real* line = Layout::macro(axis == 0 ? column(id, layer, z) : row(id, y, z), m);
+    double sum = 0.0;
+    for (int i = 0; i < lanes; ++i) {
+      const Real before = line[i];
+      line[i] += value;
+      sum += double{line[i]} - double{before};
     }
+    if (axis == 0)
+      for (int i = 0; i < lanes; ++i) Layout::macro(row(id, i, z), m)[layer] = line[i];
+    else
+      for_each_column(id, [&](int x) { Layout::macro(column(id, x, z), m)[y] = line[x]; });
+    return sum;
+  }
+
+  void refresh_columns(int id) {
+    changed_[id] = true;
+    for (const int x : {0, amr::block_size - 1})
+      for (int z = 0; z < amr::block_size; ++z)
+        Layout::store_row(column(id, x, z), Layout::load_column(block(id), x, z * amr::block_size, 1));
   }
 
   /// The same where only the velocity of one row has changed.
   void velocity_to_columns(int id, int y, int z) {
+    changed_[id] = true;
     for_each_column(id, [&](int x) {
       for (const Moment m : {ux, uy, uz}) Layout::macro(column(id, x, z), m)[y] = Layout::macro(row(id, y, z), m)[x];
     });
   }
 
+  /// Whether one of the four above has been called since forget_changes().
+  bool changed(int id) const { return changed_[id]; }
+  void forget_changes(int id) { changed_[id] = false; }
+
   /// Calls f(x) for the x whose columns are kept.
   template <class F>
   void for_each_column(int id, const F& f) const {
-    for (int x = 0; x < depth_[id][0]; ++x) f(x);
-    for (int x = amr::block_size - depth_[id][1]; x < amr::block_size; ++x) f(x);
+    for (const int x : {0, amr::block_size - 1}) f(x);
+    if (!deep_[id]) return;
+    for (const int x : {1, amr::block_size - 2}) f(x);
   }
 
  private:
   HugeArray rows_, columns_, inner_;
-  std::vector<ColumnDepth> depth_;
+  std::vector<bool> deep_;
   std::vector<std::size_t> inner_of_;  // which part of inner_
+  std::vector<std::uint8_t> changed_;  // of each block
 };
 
 }  // namespace drogue::lbm

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "lbm/reflux.hpp"
 
+#include <iterator>
 #include <numeric>
 #include <utility>
 
 #include "lbm/d3q19.hpp"
+#include "lbm/level_transfer.hpp"
 
 namespace drogue::lbm {
 namespace {
@@ -54,10 +56,10 @@ T leaving(int normal, int sign, Scalar<T> keep, Get get) {
 /// Sum of f(item), in their order whoever computes the terms.
 template <class Items, class F>
 double sum_over(const Items& items, const F& f) {
-  const int count = static_cast<int>(items.size());
+  const auto count = std::distance(items.begin(), items.end());
   std::vector<double> part(count);
-#pragma omp parallel for schedule(dynamic, 4)
-  for (int i = 0; i < count; ++i) part[i] = f(items[i]);
+#pragma omp parallel for schedule(dynamic, 16)
+  for (std::ptrdiff_t i = 0; i < count; ++i) part[i] = f(items.begin()[i]);
   return std::accumulate(part.begin(), part.end(), 0.0);
 }
 
@@ -71,17 +73,15 @@ double sum_of_lanes(const V& v) {
 }  // namespace
 
 template <class S>
-Reflux<S>::Reflux(const amr::Forest& forest, const fluid::Specification& specification, int coarse)
-    : forest_(forest),
-      third_order_(specification.collision != fluid::Collision::bgk),
-      interface_(plan_interface(forest, specification, coarse)) {
-  for (const Interface::Host& host : interface_.hosts) cells_ += static_cast<int>(host.size()) * n * n;
+Crossing<S>::Crossing(const amr::Forest& forest, bool third_order, InterfaceSide side)
+    : forest_(forest), third_order_(third_order), side_(std::move(side)) {
+  through_leaf_.resize(std::distance(side_.faces.begin(), side_.faces.end()));
 }
 
 /// Mass that a step carries from the outer to the inner side of a face, lane by lane. Of the diagonal populations what
 /// leaves a face along it enters the next one, except at an open boundary.
 template <class S>
-auto Reflux<S>::through(const MomentField<S>& field, const InterfaceFace& face, Real keep) const -> Vec<Real> {
+auto Crossing<S>::through(const MomentField<S>& field, const InterfaceFace& face, Real keep) const -> Vec<Real> {
   const int axis = face.face / 2, sign = face.face & 1 ? 1 : -1;
   const Layer<S> inner(field, face.inner, face.face), outer(field, face.outer, face.face ^ 1);
   const auto quarter_shear = [&](int tangent, int r) {
@@ -95,22 +95,23 @@ auto Reflux<S>::through(const MomentField<S>& field, const InterfaceFace& face, 
     sum += leaving<Vec<Real>>(axis, -sign, keep, [&](int m) { return outer.line(m, r); }) -
            leaving<Vec<Real>>(axis, sign, keep, [&](int m) { return inner.line(m, r); });
     if (!face.open[0] && !face.open[1]) continue;
-    const Vec<Real> along = quarter_shear(lane_axis(axis), r);
+    const Vec<Real> along = quarter_shear(along_axis(axis), r);
     if (face.open[0]) sum[0] -= along[0];
     if (face.open[1]) sum[lanes - 1] += along[lanes - 1];
   }
-  if (face.open[2]) sum -= quarter_shear(row_axis(axis), 0);
-  if (face.open[3]) sum += quarter_shear(row_axis(axis), n - 1);
+  if (face.open[2]) sum -= quarter_shear(across_axis(axis), 0);
+  if (face.open[3]) sum += quarter_shear(across_axis(axis), n - 1);
   return sum;
 }
 
 template <class S>
-auto Reflux<S>::entering(const MomentField<S>& field, const DiagonalTerm& term, Real keep) const -> Vec<Real> {
+auto Crossing<S>::entering(const MomentField<S>& field, const DiagonalTerm& term, Real keep) const -> Vec<Real> {
   using Layout = RowLayout<S>;
   const auto [x, y, z] = term.first;
   // at its x faces the columns of a block are up to date, its rows need not be; beyond the domain there are rows only
-  const bool in_column =
-      term.along != 0 && (x == 0 || x == n - 1) && forest_.block(term.block).kind != amr::Kind::boundary;
+  const bool in_column = term.along != 0 && (x == 0 || x == n - 1) &&
+                         forest_.block(term.block).kind != amr::Kind::boundary &&
+                         (term.along == 1 || !edge_is_in_rows(forest_, term.block, {x ? 1 : -1, y ? 1 : -1, 0}));
   const Row<Real> cells = !in_column        ? Layout::load_line(field.block(term.block), term.first, term.along)
                           : term.along == 1 ? Layout::load_row(field.column(term.block, x, z))
                                             : Layout::load_column(field.column(term.block, x, 0), y, 0, 1);
@@ -118,65 +119,66 @@ auto Reflux<S>::entering(const MomentField<S>& field, const DiagonalTerm& term, 
 }
 
 template <class S>
-double Reflux<S>::diagonally(const MomentField<S>& field, const std::vector<DiagonalTerm>& terms, Real keep) const {
-  return sum_over(terms, [&](const DiagonalTerm& term) { return sum_of_lanes(entering(field, term, keep)); });
+void Crossing<S>::count(int leaf, const MomentField<S>& field, const Relaxation& relaxation) {
+  const Real keep = static_cast<Real>(1.0 - 1.0 / relaxation.tau);
+  Vec<Real> mass{};
+  for (const InterfaceFace& face : side_.faces[leaf]) mass += through(field, face, keep);
+  through_leaf_[side_.faces.index(leaf)] = sum_of_lanes(mass);
 }
 
 template <class S>
-void Reflux<S>::count_fine_step(const MomentField<S>& field, const Relaxation& relaxation) {
+double Crossing<S>::total(const MomentField<S>& field, const Relaxation& relaxation) const {
   const Real keep = static_cast<Real>(1.0 - 1.0 / relaxation.tau);
+  return std::accumulate(through_leaf_.begin(), through_leaf_.end(), 0.0) +
+         sum_over(side_.diagonals, [&](const DiagonalTerm& t) { return sum_of_lanes(entering(field, t, keep)); });
+}
+
+template <class S>
+Reflux<S>::Reflux(const amr::Forest& forest, const fluid::Specification& specification, int coarse)
+    : Reflux(forest, specification.collision != fluid::Collision::bgk, plan_interface(forest, specification, coarse)) {}
+
+template <class S>
+Reflux<S>::Reflux(const amr::Forest& forest, bool third_order, Interface plan)
+    : coarse_(forest, third_order, std::move(plan.coarse)), fine_(forest, third_order, std::move(plan.fine)) {
+  for (const auto& faces : coarse_.faces()) cells_ += static_cast<int>(faces.size()) * n * n;
+}
+
+template <class S>
+void Reflux<S>::end_coarse_step(const MomentField<S>& field, const Relaxation& relaxation) {
+  counted_ = -coarse_.total(field, relaxation);
+}
+
+template <class S>
+void Reflux<S>::end_fine_step(const MomentField<S>& field, const Relaxation& relaxation) {
   constexpr double volume = 1.0 / 8.0;
-  owed_ += volume * sum_over(interface_.hosts, [&](const Interface::Host& host) {
-             Vec<Real> mass{};
-             for (const Interface::Face& face : host)
-               for (const InterfaceFace& quarter : face.fine) mass += through(field, quarter, keep);
-             return sum_of_lanes(mass);
-           });
-  owed_ += volume * diagonally(field, interface_.fine, keep);
+  counted_ += volume * fine_.total(field, relaxation);
 }
 
 template <class S>
-void Reflux<S>::settle(const MomentField<S>& start, const Relaxation& relaxation, MomentField<S>& end) {
-  const Real keep = static_cast<Real>(1.0 - 1.0 / relaxation.tau);
-  owed_ -= sum_over(interface_.hosts, [&](const Interface::Host& host) {
-    Vec<Real> mass{};
-    for (const Interface::Face& face : host) mass += through(start, face.coarse, keep);
-    return sum_of_lanes(mass);
-  });
-  owed_ -= diagonally(start, interface_.coarse, keep);
+void Reflux<S>::settle(MomentField<S>& field) {
   if (cells_ == 0) return;
-  const Real share = static_cast<Real>(owed_ / cells_);
-  owed_ -= sum_over(interface_.hosts, [&](const Interface::Host& host) {
+  owed_ += std::exchange(counted_, 0.0);
+  const auto share = static_cast<typename S::Real>(owed_ / cells_);
+  owed_ -= sum_over(coarse_.faces(), [&](const std::vector<InterfaceFace>& of_leaf) {
     double given = 0.0;
-    for (const Interface::Face& face : host) given += give(face.coarse, share, end);
+    for (const InterfaceFace& face : of_leaf)
+      for (int r = 0; r < n; ++r) given += field.add_at_face(face.inner, face.face, r, drho, share);
     return given;
   });
-}
-
-/// Adds the share to each cell of the coarse side of a face; returns what arrived.
-template <class S>
-double Reflux<S>::give(const InterfaceFace& face, Real share, MomentField<S>& field) const {
-  const int axis = face.face / 2;
-  double given = 0.0;
-  for (int r = 0; r < n; ++r)
-    for (int lane = 0; lane < lanes; ++lane) {
-      Index3 cell;
-      cell[axis] = face.face & 1 ? n - 1 : 0;
-      cell[row_axis(axis)] = r;
-      cell[lane_axis(axis)] = lane;
-      given += field.add(face.inner, cell, drho, share);
-    }
-  return given;
 }
 
 template <class S>
 void Reflux<S>::transfer_state(Archive& archive) {
   archive.transfer("owed_mass", owed_);
+  archive.transfer("counted_mass", counted_);
 }
 
 #ifdef __F16C__
+template class Crossing<HalfStress>;
 template class Reflux<HalfStress>;
 #endif
+template class Crossing<FloatStress>;
+template class Crossing<DoubleStress>;
 template class Reflux<FloatStress>;
 template class Reflux<DoubleStress>;
 

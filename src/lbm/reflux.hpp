@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Mass across the interface of two levels. The transfer between levels matches the field, to fourth order; what the
 // coarse grid lets through the interface then differs a little from what the fine grid receives. The difference is
-// counted over the whole interface, and shared out among the coarse cells beside it at the end of the coarse step, as
-// density at unchanged velocity, so that mass does not drift.
+// counted over the whole interface, and shared out among the coarse cells beside it in the course of the next coarse
+// step, as density at unchanged velocity, so that mass does not drift.
 //
 // It is not given back where it arises, as Berger & Colella (J. Comput. Phys. 82 (1989) 64) do with fluxes. On a
 // lattice of spacing dx the flux that is conserved is rho u + O(dx^2) lap(rho u), which differs between two levels also
@@ -25,30 +25,54 @@
 
 namespace drogue::lbm {
 
+/// What steps of one level carry from the outer to the inner side of an interface.
+template <class S>
+class Crossing {
+ public:
+  Crossing(const amr::Forest& forest, bool third_order, InterfaceSide side);
+
+  const ByLeaf<InterfaceFace>& faces() const { return side_.faces; }
+  /// Counts what a step from `field`, rims and boundary blocks filled, carries through the faces of one leaf: cheapest
+  /// while that leaf is in the cache. Leaves may be counted in parallel.
+  void count(int leaf, const MomentField<S>& field, const Relaxation& relaxation);
+  /// All that the step carries across, once all leaves have been counted; in cells of rho 1.
+  double total(const MomentField<S>& field, const Relaxation& relaxation) const;
+
+ private:
+  using Real = typename S::Real;
+  Vec<Real> through(const MomentField<S>& field, const InterfaceFace& face, Real keep) const;
+  Vec<Real> entering(const MomentField<S>& field, const DiagonalTerm& term, Real keep) const;
+
+  const amr::Forest& forest_;
+  bool third_order_;
+  InterfaceSide side_;
+  std::vector<double> through_leaf_;
+};
+
 template <class S>
 class Reflux {
  public:
   /// For the interface between `coarse` and `coarse` + 1.
   Reflux(const amr::Forest& forest, const fluid::Specification& specification, int coarse);
 
-  /// Counts what the fine step from `field`, its rims and boundary blocks filled, carries across.
-  void count_fine_step(const MomentField<S>& field, const Relaxation& relaxation);
-  /// Gives the coarse leaves of `end` what the fine steps have carried across and the coarse step from `start` has not.
-  void settle(const MomentField<S>& start, const Relaxation& relaxation, MomentField<S>& end);
+  Crossing<S>& of_coarse() { return coarse_; }
+  Crossing<S>& of_fine() { return fine_; }
+  /// To be called when all leaves have been counted.
+  void end_coarse_step(const MomentField<S>& field, const Relaxation& relaxation);
+  void end_fine_step(const MomentField<S>& field, const Relaxation& relaxation);
+  /// Gives the coarse leaves of `field` what the last step has left.
+  void settle(MomentField<S>& field);
+  /// Mass on its way between the levels, in coarse cells of rho 1.
+  double owed() const { return owed_ + counted_; }
   void transfer_state(Archive& archive);
 
  private:
-  using Real = typename S::Real;
-  Vec<Real> through(const MomentField<S>& field, const InterfaceFace& face, Real keep) const;
-  Vec<Real> entering(const MomentField<S>& field, const DiagonalTerm& term, Real keep) const;
-  double diagonally(const MomentField<S>& field, const std::vector<DiagonalTerm>& terms, Real keep) const;
-  double give(const InterfaceFace& face, Real share, MomentField<S>& field) const;
+  Reflux(const amr::Forest& forest, bool third_order, Interface plan);
 
-  const amr::Forest& forest_;
-  const bool third_order_;
-  const Interface interface_;
-  int cells_ = 0;      // of coarse leaves beside the interface, once for each face
-  double owed_ = 0.0;  // to them, in rho of one; what rounding leaves stays
+  Crossing<S> coarse_, fine_;
+  int cells_ = 0;         // of coarse leaves beside the interface, once for each face
+  double owed_ = 0.0;     // to them; what rounding leaves stays
+  double counted_ = 0.0;  // of the coarse step at hand
 };
 
 }  // namespace drogue::lbm

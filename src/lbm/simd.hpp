@@ -160,16 +160,6 @@ void store_streaming(Real* p, Vec<Real> v) {
 #endif
 }
 
-inline bool is_zero(Vec<float> v) {
-#ifdef __AVX512F__
-  return _mm512_cmp_ps_mask(reinterpret_cast<__m512>(v), _mm512_setzero_ps(), _CMP_NEQ_UQ) == 0;
-#else
-  bool zero = true;
-  for (int i = 0; i < lanes; ++i) zero &= v[i] == 0.0f;
-  return zero;
-#endif
-}
-
 template <class V>
 V maximum(V a, V b) {
   return a > b ? a : b;

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "core/error.hpp"
+#include "lbm/level_transfer.hpp"
 
 namespace drogue::lbm {
 namespace {
@@ -37,9 +38,8 @@ BasicSolver<S>::BasicSolver(amr::Forest forest, fluid::Specification specificati
     : forest_(std::move(forest)),
       specification_(std::move(specification)),
       units_(units_of(specification_)),
-      field_{MomentField<S>(forest_.size(), column_depths(forest_)),
-             MomentField<S>(forest_.size(), column_depths(forest_))},
-      resample_(forest_),
+      field_{MomentField<S>(forest_.size(), deep_blocks(forest_)),
+             MomentField<S>(forest_.size(), deep_blocks(forest_))},
       fill_boundary_(forest_, specification_, units_),
       forced_(is_forced(specification_)),
       force_(forest_),
@@ -52,9 +52,9 @@ BasicSolver<S>::BasicSolver(amr::Forest forest, fluid::Specification specificati
     l.dt = dx / units_.velocity;
     l.relaxation = {relaxation_time(specification_.viscosity * l.dt / (dx * dx)), specification_.hrr_sigma,
                     eddy_factor(specification_)};
-    if (level > 0) l.from_coarser = plan_interpolation(forest_, level);
+    if (level > 0) l.to_parents = plan_restriction(forest_, level);
     if (level < forest_.finest()) {
-      l.to_parents = plan_restriction(forest_, level);
+      interpolation_.emplace_back(forest_, level + 1);
       reflux_.emplace_back(forest_, specification_, level);
     }
     if (forced_) l.lead = half_kick(level, 0.0);
@@ -72,24 +72,33 @@ void BasicSolver<S>::step(fluid::FineStepHook* hook) {
 template <class S>
 void BasicSolver<S>::advance(int level, fluid::FineStepHook* hook) {
   Level& l = levels_[level];
+  if (level < forest_.finest()) reflux_[level].settle(field_[l.now]);
   fill_boundary_(level, l.time, field_[l.now]);
-  if (level > 0) reflux_[level - 1].count_fine_step(field_[l.now], l.relaxation);
   stream_and_collide(level);
   fill_boundary_.balance(level, 1.0 - 1.0 / l.relaxation.tau, field_[l.now], field_[1 - l.now]);
   if (forced_) accelerate(level);
   apply_sponge(level);
-  if (level == forest_.finest()) {
-    if (hook) couple(*hook);
-  } else {
-    for (const bool midway : {false, true}) {
-      interpolate_rims(level + 1, midway);
-      advance(level + 1, hook);
-      restrict_to_parents(level, 1 - l.now);
-    }
-    reflux_[level].settle(field_[l.now], l.relaxation, field_[1 - l.now]);
-  }
+  if (level < forest_.finest())
+    advance_twice(level + 1, hook);
+  else if (hook)
+    couple(*hook);
   l.now = 1 - l.now;
   l.time += l.dt;
+  if (level > 0) restrict_changed(level, field_[1 - levels_[level - 1].now]);
+}
+
+/// A level, within a step of the coarser one.
+template <class S>
+void BasicSolver<S>::advance_twice(int level, fluid::FineStepHook* hook) {
+  const Level &fine = levels_[level], &coarse = levels_[level - 1];
+  Interpolation<S>& interpolation = interpolation_[level - 1];
+  MomentField<S>& coarse_end = field_[1 - coarse.now];
+  interpolation.fill_rims(conversion(level - 1, level), field_[fine.now]);
+  advance(level, hook);
+  interpolation.take_half_way(coarse_end);
+  interpolation.fill_rims(conversion(level - 1, level), field_[fine.now]);
+  advance(level, hook);
+  interpolation.take_end(coarse_end);
 }
 
 template <class S>
@@ -98,16 +107,33 @@ void BasicSolver<S>::stream_and_collide(int level) {
   const auto leaves = forest_.range(level, amr::Kind::leaf);
   float max_speed_squared = 0.0f;
   bool diverged = false;
-#pragma omp parallel for schedule(static) reduction(max : max_speed_squared) reduction(|| : diverged)
-  for (int id = leaves.begin; id < leaves.end; ++id) {
-    BlockNeighbourhood<S> blocks = neighbourhood(id, l.now);
-    const BlockNeighbourhood<S> next = neighbourhood(std::min(id + 1, leaves.end - 1), l.now);
-    blocks.next = &next;
-    const BlockRecord record = update_(blocks, l.relaxation);
-    max_speed_squared = std::max(max_speed_squared, record.max_speed_squared);
-    diverged = diverged || record.diverged;
+#pragma omp parallel reduction(max : max_speed_squared) reduction(|| : diverged)
+  {
+    const auto restriction = std::make_unique<Restriction<S>>(forest_);
+    const auto sums = std::make_unique<LayerSums<S>>();
+#pragma omp for schedule(static)
+    for (int id = leaves.begin; id < leaves.end; ++id) {
+      BlockNeighbourhood<S> blocks = neighbourhood(id, l.now);
+      const BlockNeighbourhood<S> next = neighbourhood(std::min(id + 1, leaves.end - 1), l.now);
+      blocks.next = &next;
+      sums->begin();
+      if (level > 0) restriction->request((*l.to_parents)[id], *sums);
+      if (level < forest_.finest()) interpolation_[level].request(id, *sums);
+      if (!sums->empty()) blocks.sums = sums.get();
+      if (level > 0) reflux_[level - 1].of_fine().count(id, field_[l.now], l.relaxation);
+      if (level < forest_.finest()) reflux_[level].of_coarse().count(id, field_[l.now], l.relaxation);
+      const BlockRecord record = update_(blocks, l.relaxation);
+      sums->finish();
+      if (level > 0)
+        restriction->write(id, (*l.to_parents)[id], conversion(level, level - 1), field_[1 - levels_[level - 1].now]);
+      field_[1 - l.now].forget_changes(id);
+      max_speed_squared = std::max(max_speed_squared, record.max_speed_squared);
+      diverged = diverged || record.diverged;
+    }
   }
   if (diverged) report_divergence(level);
+  if (level > 0) reflux_[level - 1].end_fine_step(field_[l.now], l.relaxation);
+  if (level < forest_.finest()) reflux_[level].end_coarse_step(field_[l.now], l.relaxation);
   statistics_.cell_updates += std::int64_t{leaves.size()} * amr::block_cells;
   const double speed = std::sqrt(max_speed_squared);
   statistics_.max_speed = std::max(statistics_.max_speed, speed * units_.velocity);
@@ -120,13 +146,14 @@ BlockNeighbourhood<S> BasicSolver<S>::neighbourhood(int block, int from) {
   for (int slot = 0; slot < 27; ++slot) {
     const int id = forest_.block(block).neighbour[slot];
     blocks.source[slot] = field_[from].block(id);
-    blocks.columns[slot] = forest_.block(id).kind == amr::Kind::boundary ? nullptr : field_[from].columns(id);
+    const Index3 o = amr::slot_offset(slot);
+    const bool in_rows = forest_.block(id).kind == amr::Kind::boundary ||
+                         (o[0] != 0 && o[1] != 0 && o[2] == 0 && edge_is_in_rows(forest_, id, {-o[0], -o[1], 0}));
+    blocks.columns[slot] = in_rows ? nullptr : field_[from].columns(id);
   }
   MomentField<S>& target = field_[1 - from];
   blocks.target = target.block(block);
   blocks.target_columns = target.columns(block);
-  blocks.depth = target.depth(block);
-  if (blocks.depth != ColumnDepth{1, 1}) blocks.target_inner = target.inner_columns(block);
   return blocks;
 }
 
@@ -149,32 +176,37 @@ void BasicSolver<S>::apply_sponge(int level) {
   }
 }
 
-/// At the start of the coarse step (`midway` false) everything is taken at its time; half-way through, coarse leaves
-/// are averaged over the step while parents have just been restricted from the fine leaves.
+/// Once more for the leaves that something has changed since they were updated.
 template <class S>
-void BasicSolver<S>::interpolate_rims(int level, bool midway) {
-  const Level &fine = levels_[level], &coarse = levels_[level - 1];
-  const MomentField<S>&start = field_[coarse.now], &end = field_[1 - coarse.now];
-  const SourceFields<S> source{start, midway ? &end : nullptr, midway ? end : start};
-  const Conversion to_fine = conversion(level - 1, level);
-  const int targets = static_cast<int>(fine.from_coarser.first.size()) - 1;
-#pragma omp parallel for schedule(dynamic, 4)
-  for (int i = 0; i < targets; ++i)
-    for (int j = fine.from_coarser.first[i]; j < fine.from_coarser.first[i + 1]; ++j)
-      resample_(fine.from_coarser.job[j], source, to_fine, field_[fine.now]);
+void BasicSolver<S>::restrict_changed(int level, MomentField<S>& coarse) {
+  MomentField<S>& fine = field_[levels_[level].now];
+  const auto leaves = forest_.range(level, amr::Kind::leaf);
+  const RestrictionPlan& plan = *levels_[level].to_parents;
+#pragma omp parallel
+  {
+    const auto restriction = std::make_unique<Restriction<S>>(forest_);
+    const auto sums = std::make_unique<LayerSums<S>>();
+#pragma omp for schedule(dynamic, 4)
+    for (int id = leaves.begin; id < leaves.end; ++id) {
+      if (!fine.changed(id)) continue;
+      fine.forget_changes(id);
+      if (plan[id].empty()) continue;
+      sums->begin();
+      restriction->request(plan[id], *sums);
+      sums->sum(fine.block(id));
+      restriction->write(id, plan[id], conversion(level, level - 1), coarse);
+    }
+  }
 }
 
+/// From a state of leaves alone.
 template <class S>
-void BasicSolver<S>::restrict_to_parents(int level, int field) {
-  const Level &coarse = levels_[level], &fine = levels_[level + 1];
-  const MomentField<S>& from = field_[fine.now];
-  const SourceFields<S> source{from, nullptr, from};
-  const Conversion to_coarse = conversion(level + 1, level);
-  const int targets = static_cast<int>(coarse.to_parents.first.size()) - 1;
-#pragma omp parallel for schedule(dynamic, 1)
-  for (int i = 0; i < targets; ++i)
-    for (int j = coarse.to_parents.first[i]; j < coarse.to_parents.first[i + 1]; ++j)
-      resample_(coarse.to_parents.job[j], source, to_coarse, field_[field]);
+void BasicSolver<S>::join_levels() {
+  for (int level = forest_.finest(); level > 0; --level) {
+    MomentField<S>& coarse = field_[levels_[level - 1].now];
+    restrict_changed(level, coarse);
+    interpolation_[level - 1].start(coarse);
+  }
 }
 
 /// Pneq = -2 rho c_s^2 tau S dt: per step of each level, so it scales with tau dt. Levels meet at the time of the
@@ -202,19 +234,15 @@ void BasicSolver<S>::couple(fluid::FineStepHook& hook) {
   const int count = static_cast<int>(opened.size());
 #pragma omp parallel for schedule(static)
   for (int i = 0; i < count; ++i) {
-    const float* f = std::as_const(force_).block(opened[i]);
-    for (int r = 0; r < rows_per_block; ++r, f += fluid::ForceField::stride_y) {
-      std::array<Vec<float>, 3> force;
-      for (int a = 0; a < 3; ++a) force[a] = load_unaligned(f + a * fluid::ForceField::stride_component);
-      if (is_zero(force[0]) && is_zero(force[1]) && is_zero(force[2])) continue;
+    force_.drain(opened[i], [&](int r, const float* force) {
       std::byte* row = field_[field].block(opened[i]) + r * Layout::bytes;
-      for (int a = 0; a < 3; ++a) {
+      for (int a = 0; a < 3; ++a, force += fluid::ForceField::stride_component) {
         Real* u = Layout::macro(row, ux + a);
         __builtin_prefetch(Layout::macro(row + n * Layout::bytes, ux + a), 1);  // where a sheet goes on, one plane up
-        store(u, load(u) + lattice_kappa * __builtin_convertvector(force[a], Vec<Real>));
+        store(u, load(u) + lattice_kappa * __builtin_convertvector(load_unaligned(force), Vec<Real>));
       }
       field_[field].velocity_to_columns(opened[i], r % n, r / n);
-    }
+    });
   }
 }
 
@@ -306,6 +334,7 @@ std::array<double, 4> BasicSolver<S>::mass_and_momentum() const {
       part[id - leaves.begin] = sum;
     }
     const double cell_mass = specification_.density * std::pow(forest_.spacing(level), 3);
+    if (level < forest_.finest()) total[0] += cell_mass * reflux_[level].owed();
     for (const auto& p : part) {
       total[0] += cell_mass * p[0];
       for (int a = 0; a < 3; ++a) total[1 + a] += cell_mass * units_.velocity * p[1 + a];
@@ -329,7 +358,7 @@ void BasicSolver<S>::transfer_state(Archive& archive) {
     if (forced_) l.lead = half_kick(level, l.time);
     if (level < forest_.finest()) archive.transfer(name + "/interface", reflux_[level]);
   }
-  for (int level = forest_.finest() - 1; level >= 0; --level) restrict_to_parents(level, levels_[level].now);
+  join_levels();
   archive.transfer("boundaries", fill_boundary_);
   archive.transfer("cell_updates", statistics_.cell_updates);
   archive.transfer("max_mach", statistics_.max_mach);

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Lattice-Boltzmann fluid on a block forest: weakly compressible Navier-Stokes, acoustic scaling (the time step halves
 // with the cell), levels sub-cycled. One coarse step of level l is
-//   fill what lies beyond the domain; stream and collide the leaves, from the field at t to the field at t + dt;
-//   twice: interpolate the rims of level l + 1 in space and time, advance it, restrict it onto the parents of l.
+//   fill what lies beyond the domain; stream and collide the leaves, from the field at t to the field at t + dt, which
+//   also restricts them onto the parents of l - 1;
+//   twice: interpolate the rims of level l + 1 in space and time, advance it.
 // On the finest level the hook sees the velocity after each step and returns a force, u += kappa f.
 #pragma once
 
@@ -14,9 +15,9 @@
 #include "fluid/specification.hpp"
 #include "lbm/boundary.hpp"
 #include "lbm/fine_velocity.hpp"
-#include "lbm/level_transfer.hpp"
+#include "lbm/interpolation.hpp"
 #include "lbm/reflux.hpp"
-#include "lbm/resample.hpp"
+#include "lbm/restriction.hpp"
 #include "lbm/stream_collide.hpp"
 
 namespace drogue::lbm {
@@ -61,7 +62,7 @@ class BasicSolver : public fluid::FluidSolver {
     int now = 0;               // which of the two fields holds the level's present
     Vec3 lead = Vec3::Zero();  // of the stored velocity before that of the fluid, cells per step: lbm/body_force.cpp
     Relaxation relaxation;
-    TransferPlan from_coarser, to_parents;
+    std::optional<RestrictionPlan> to_parents;  // of the next coarser level, if there is one
     std::vector<SpongeBlock> sponge;
   };
 
@@ -70,8 +71,9 @@ class BasicSolver : public fluid::FluidSolver {
   void build_sponge(int level);
   void advance(int level, fluid::FineStepHook* hook);
   void stream_and_collide(int level);
-  void interpolate_rims(int level, bool midway);
-  void restrict_to_parents(int level, int field);
+  void advance_twice(int level, fluid::FineStepHook* hook);
+  void restrict_changed(int level, MomentField<S>& coarse);
+  void join_levels();
   Vec3 half_kick(int level, double time) const;
   void accelerate(int level);
   void apply_sponge(int level);
@@ -85,10 +87,10 @@ class BasicSolver : public fluid::FluidSolver {
   Units units_;
   std::vector<Level> levels_;
   std::array<MomentField<S>, 2> field_;
-  Resampler<S> resample_;
   BoundaryFill<S> fill_boundary_;
-  bool forced_;                    // by a body force
-  std::vector<Reflux<S>> reflux_;  // by the coarser level of an interface
+  bool forced_;                                  // by a body force
+  std::vector<Interpolation<S>> interpolation_;  // by the coarser level of an interface
+  std::vector<Reflux<S>> reflux_;                // likewise
   fluid::ForceField force_;
   mutable FineVelocity<S> fine_velocity_;  // a cache
   BlockUpdate<S> update_;

@@ -47,7 +47,7 @@ void BasicSolver<S>::initialise() {
       }
     }
   }
-  for (int level = forest_.finest() - 1; level >= 0; --level) restrict_to_parents(level, levels_[level].now);
+  join_levels();
   for (int level = 0; level < forest_.levels(); ++level) fill_boundary_.start(level, field_[levels_[level].now]);
 }
 

@@ -6,7 +6,7 @@
 #include <array>
 
 #include "fluid/specification.hpp"
-#include "lbm/moments.hpp"
+#include "lbm/layer_sums.hpp"
 
 namespace drogue::lbm {
 
@@ -36,8 +36,7 @@ struct BlockNeighbourhood {
   std::array<const std::byte*, 27> source;   ///< by amr::neighbour_slot; the rims that face the block must be filled
   std::array<const std::byte*, 27> columns;  ///< MomentField::columns of them, or null: then rows are read
   std::byte *target, *target_columns;
-  std::byte* target_inner = nullptr;  ///< MomentField::inner_columns, or null if none are kept
-  ColumnDepth depth{1, 1};
+  LayerSums<S>* sums = nullptr;              ///< to be given the rows after the step, or null
   const BlockNeighbourhood* next = nullptr;  ///< the block after this one, whose rows are prefetched meanwhile
 };
 

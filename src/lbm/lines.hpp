@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// How the transfer between levels cuts up the rim of a block: into layers, a layer into lines of 16 cells whose ten
+// moments are adjacent. Next to a y or z face lines are rows; next to an x face they are columns along y, so that no
+// face is more expensive than another.
+#pragma once
+
+#include <cstddef>
+
+#include "lbm/moments.hpp"
+#include "lbm/stencils.hpp"
+
+namespace drogue::lbm {
+
+/// Of lines normal to an axis: the axis across them, in a layer, and the one along them.
+constexpr int across_axis(int normal) { return normal == 2 ? 1 : 2; }
+constexpr int along_axis(int normal) { return normal == 0 ? 1 : 0; }
+
+/// Half-open.
+struct Range {
+  int begin, end;
+};
+
+template <class S>
+const std::byte* line_of(const MomentField<S>& field, int id, int normal, int layer, int across) {
+  if (normal == 0) return field.column(id, layer, across);
+  return normal == 1 ? field.row(id, layer, across) : field.row(id, across, layer);
+}
+template <class S>
+std::byte* line_of(MomentField<S>& field, int id, int normal, int layer, int across) {
+  return const_cast<std::byte*>(line_of(std::as_const(field), id, normal, layer, across));
+}
+
+/// Copies cells `along` of a line that has been written to where else they are kept: the ends of a row to columns, a
+/// column to rows.
+template <class S>
+void copy_line(MomentField<S>& field, int id, int normal, int layer, int across, const Range& along) {
+  using Layout = RowLayout<S>;
+  if (normal > 0) {
+    const int y = normal == 1 ? layer : across, z = normal == 1 ? across : layer;
+    field.for_each_column(id, [&](int x) {
+      if (x < along.begin || x >= along.end) return;
+      Layout::copy_element(field.row(id, y, z), x, field.column(id, x, z), y);
+    });
+  } else {
+    for (int y = along.begin; y < along.end; ++y)
+      Layout::copy_element(field.column(id, layer, across), y, field.row(id, y, across), layer);
+  }
+}
+
+/// What differs between the states of two levels.
+struct Conversion {
+  double stress_factor = 1.0;          ///< of the stress, which scales with tau and the time step
+  Vec3 velocity_shift = Vec3::Zero();  ///< added to the velocity, lattice units (lbm/body_force.cpp)
+};
+
+/// The same by moment: m becomes factor[m] m + shift[m].
+template <class Real>
+struct MomentConversion {
+  std::array<Real, moments> factor, shift;
+
+  explicit MomentConversion(const Conversion& c) {
+    for (int m = 0; m < moments; ++m) {
+      factor[m] = static_cast<Real>(m < pxx ? 1.0 : c.stress_factor);
+      shift[m] = static_cast<Real>(m >= ux && m <= uz ? c.velocity_shift[m - ux] : 0.0);
+    }
+  }
+};
+
+/// An axis in the precision of the state, with lane numbers for lines that are combined along themselves.
+template <class Real>
+struct Stencil {
+  std::array<int, amr::block_size> start;
+  std::array<std::array<Real, Axis::most_taps>, amr::block_size> weight;
+  std::array<IndexVec<Real>, Axis::most_taps> lane;
+  std::array<Vec<Real>, Axis::most_taps> lane_weight;
+
+  explicit Stencil(const Axis& axis) : start(axis.start) {
+    for (int i = 0; i < amr::block_size; ++i)
+      for (int k = 0; k < Axis::most_taps; ++k) {
+        weight[i][k] = lane_weight[k][i] = static_cast<Real>(axis.weight[i][k]);
+        lane[k][i] = std::min(axis.start[i] + k, 2 * amr::block_size - 1);
+      }
+  }
+};
+
+}  // namespace drogue::lbm

@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Fourth-order restriction of fine leaves onto the rim of the parent that covers them, two layers deep: one is streamed
+// from, both are in reach of the cubic interpolation. The stencils stay inside a leaf, so its rim is summed up while it
+// is updated and nothing is read again.
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "lbm/by_leaf.hpp"
+#include "lbm/layer_sums.hpp"
+#include "lbm/lines.hpp"
+
+namespace drogue::lbm {
+
+/// A face of a leaf whose cells a parent needs.
+struct RimFace {
+  int face;   ///< 0 to 5
+  bool copy;  ///< the lines of the parent, see copy_line()
+};
+
+using RestrictionPlan = ByLeaf<RimFace>;
+
+/// Restricts one leaf at a time: request(), the rows, write(). About 120 KB.
+template <class S>
+class Restriction {
+ public:
+  explicit Restriction(const amr::Forest& forest) : forest_(forest), stencil_(restriction_axis()) {}
+
+  /// Asks for the sums along the normals of `faces`.
+  void request(const std::vector<RimFace>& faces, LayerSums<S>& sums);
+  /// Fills the part of the parent's rim in the field of its level, once the rows of the leaf have been summed.
+  void write(int leaf, const std::vector<RimFace>& faces, const Conversion& conversion, MomentField<S>& coarse) const;
+
+ private:
+  using Real = typename S::Real;
+  static constexpr int layers = 2;
+
+  void write_face(int leaf, const RimFace& rim, const Conversion& conversion, MomentField<S>& coarse) const;
+
+  const amr::Forest& forest_;
+  const Stencil<Real> stencil_;
+  std::array<std::array<Plane<S>, layers>, 6> sum_;  // by face
+};
+
+}  // namespace drogue::lbm

@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "lbm/stencils.hpp"
+
+#include <algorithm>
+
+namespace drogue::lbm {
+namespace {
+
+constexpr int n = amr::block_size;
+
+/// Lagrange weights of the points 0, 1, 2, 3 at position x.
+std::array<double, Axis::most_taps> cubic_weights(double x) {
+  std::array<double, Axis::most_taps> w{};
+  for (int k = 0; k < 4; ++k) {
+    double product = 1.0;
+    for (int l = 0; l < 4; ++l)
+      if (l != k) product *= (x - l) / (k - l);
+    w[k] = product;
+  }
+  return w;
+}
+
+}  // namespace
+
+Axis cubic_axis(int half, bool available) {
+  Axis axis{interpolation_taps, {}, {}};
+  // the coarse block comes second in the pair for the low half, first for the high one
+  const int begin = half == 0 ? n : 0;
+  const int low = half == 0 && available ? 0 : begin, high = half == 1 && available ? 2 * n : begin + n;
+  for (int i = 0; i < n; ++i) {
+    const int coarse = begin + half * n / 2 + i / 2, odd = i & 1;
+    axis.start[i] = std::clamp(coarse - 2 + odd, low, high - axis.taps);
+    axis.weight[i] = cubic_weights(coarse + (odd ? 0.25 : -0.25) - axis.start[i]);
+  }
+  return axis;
+}
+
+Axis restriction_axis() {
+  Axis axis{restriction_taps, {}, {}};
+  for (int i = 0; i < n; ++i) {
+    const int child = i / (n / 2), j = i % (n / 2);
+    const bool low = j < n / 4;
+    // the centred four points stand in five taps, such that an end and the output next to it use the same
+    axis.start[i] = child * n + std::clamp(2 * j - (low ? 2 : 1), 0, n - restriction_taps);
+    if (low)
+      axis.weight[i] = {0, -1, 9, 9, -1};
+    else
+      axis.weight[i] = {-1, 9, 9, -1, 0};
+    if (j == 0) axis.weight[i] = {6, 11, 1, -3, 1};
+    if (j == n / 2 - 1) axis.weight[i] = {1, -3, 1, 11, 6};
+    for (double& w : axis.weight[i]) w /= 16.0;
+  }
+  return axis;
+}
+
+}  // namespace drogue::lbm

@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The weights that join levels along one axis; in space they act as tensor products. Populations move at lattice speed,
+// so a second-order mismatch of the velocity at an interface would reach the flow as a first-order force (DESIGN
+// section 3, table); hence cubic interpolation and fourth-order restriction.
+#pragma once
+
+#include <array>
+
+#include "amr/forest.hpp"
+
+namespace drogue::lbm {
+
+/// Outputs 0 .. 15 along one axis from inputs 0 .. 31, the cells of a pair of adjacent blocks: output i is the sum over
+/// k < taps of weight[i][k] * input[start[i] + k].
+struct Axis {
+  static constexpr int most_taps = 5;
+  int taps;
+  std::array<int, amr::block_size> start;
+  std::array<std::array<double, most_taps>, amr::block_size> weight;
+};
+
+inline constexpr int interpolation_taps = 4, restriction_taps = 5;
+
+/// Cubic interpolation onto the block in octant `half` (0 low, 1 high) of a coarse one; the pair is the coarse block
+/// and its neighbour on that side, which the stencils leave alone if it is not `available`.
+Axis cubic_axis(int half, bool available);
+
+/// Fourth-order restriction of two fine blocks onto the one that covers them: (-1, 9, 9, -1) / 16, and
+/// (6, 11, 1, -3, 1) / 16 at the ends of each of them, so that no neighbour is read; both reproduce cubics and remove
+/// the shortest wave.
+Axis restriction_axis();
+
+}  // namespace drogue::lbm
