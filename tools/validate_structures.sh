@@ -28,13 +28,13 @@ beam() {
   echo "beam-$1-20-trilinear|cantilever_large_deflection|alpha = $1, 20 trilinear elements|--set body.beam.element=\"trilinear\" --set body.beam.force.0.force=[0,0,$1] --set reference.deflection_over_length.value=$2 --set reference.shortening_over_length.value=$3"
 }
 
-# flag NAME FINEST RATIO WHAT [ARGUMENTS]: cells of 1/FINEST, mass ratio RATIO.
+# flag NAME FINEST ELEMENTS RATIO WHAT [ARGUMENTS]: cells of 1/FINEST, ELEMENTS elements across, mass ratio RATIO.
 flag() {
   local grid="--set grid.finest=1/$2 --set grid.region.1.spacing=2/$2 --set grid.region.2.spacing=4/$2"
-  case $2 in 48 | 96) grid+=' --set grid.coarsest=1/12 --set domain.upper=["26/3",4,2]' ;; esac
-  echo "flag-$1|flag_3d|$4|$grid --set body.flag.density=1+100*$3 ${5:-}"
+  [[ $2 != 48 ]] || grid+=' --set grid.coarsest=1/12 --set domain.upper=["26/3",4,2]'
+  echo "flag-$1|flag_3d|$5|$grid --set body.flag.mesh.elements=[$3,$3,1] --set body.flag.density=1+100*$4 ${6:-}"
 }
-shorter() { echo "--set output.fluid=0 --set time.end=$2 --set results.stable_window=[$1,$2]"; }
+short="--set output.fluid=0 --set time.end=14 --set results.stable_window=[6,14]"
 
 # name | case | what it changes | arguments of ./drogue run
 matrix() {
@@ -56,16 +56,18 @@ matrix() {
       echo "cook-incompressible-$n-$kind|cook_membrane|nu = 0.499, $n x $n $kind (reference 32 x 32)|--set body.panel.mesh.elements=[$n,$n,1] --set body.panel.element=\"$kind\" --set body.panel.material.poisson=0.499 --set reference.tip_displacement.value=0.02749"
     done
   done
-  flag 32 32 1 'cells of 1/32'
-  flag 48 48 1 'cells of 1/48, until 16 s' "$(shorter 8 16)"
-  flag 64 64 1 'cells of 1/64, the case'
-  flag 96 96 1 'cells of 1/96, until 16 s' "$(shorter 8 16)"
-  flag 32-delta-3 32 1 'cells of 1/32, three-point delta, until 14 s' "$(shorter 6 14) --set body.flag.coupling.delta=peskin3"
-  flag 32-step-half 32 1 'cells of 1/32, half the time step and Mach number, until 14 s' "$(shorter 6 14) --set fluid.lattice_velocity=0.05"
-  flag 32-trilinear 32 1 'cells of 1/32, trilinear elements, until 14 s' "$(shorter 6 14) --set body.flag.element=\"trilinear\""
-  flag 32-elements 32 1 'cells of 1/32, 64 x 64 elements, until 14 s' "$(shorter 6 14) --set body.flag.mesh.elements=[64,64,1]"
-  flag 32-light 32 0.1 'cells of 1/32, mass ratio 0.1, until 14 s' "$(shorter 6 14)"
-  flag 32-massless 32 0 'cells of 1/32, mass ratio 0, until 14 s' "$(shorter 6 14)"
+  local longer='--set time.end=24 --set results.stable_window=[12,24]'
+  flag 32 32 32 1 'cells of 1/32, until 24 s' "$longer"
+  flag 48 48 48 1 'cells of 1/48'
+  flag 64 64 64 1 'cells of 1/64, the case'
+  flag 48-coarse 48 32 1 'cells of 1/48, 32 x 32 elements'
+  flag 64-coarse 64 32 1 'cells of 1/64, 32 x 32 elements, until 24 s' "$longer"
+  flag 32-fine 32 64 1 'cells of 1/32, 64 x 64 elements, until 14 s' "$short"
+  flag 32-delta-3 32 32 1 'cells of 1/32, three-point delta, until 14 s' "$short --set body.flag.coupling.delta=peskin3"
+  flag 32-step-half 32 32 1 'cells of 1/32, half the time step and Mach number, until 14 s' "$short --set fluid.lattice_velocity=0.05"
+  flag 32-trilinear 32 32 1 'cells of 1/32, trilinear elements, until 14 s' "$short --set body.flag.element=\"trilinear\""
+  flag 32-light 32 32 0.1 'cells of 1/32, mass ratio 0.1, until 14 s' "$short"
+  flag 32-massless 32 32 0 'cells of 1/32, mass ratio 0, until 14 s' "$short"
   for n in 8 16 32; do echo "airbag-$n|airbag_square|$n x $n, tension field|--set body.airbag.mesh.elements=[$n,$n]"; done
   echo "airbag-16-compressed|airbag_square|16 x 16, bears compression|--set body.airbag.wrinkling=false"
 }
