@@ -193,7 +193,11 @@ double Elements::largest_squared_frequency(std::span<const Vec3> x) {
   const std::vector<double> stiffness = nodal_stiffness(x);
   double largest = 0.0;
   for (std::size_t node = 0; node < stiffness.size(); ++node) {
-    largest = std::max(largest, stiffness[node] / shared_mass_[node]);
+    const double squared_frequency = stiffness[node] / shared_mass_[node];
+    if (squared_frequency <= largest) continue;
+    largest = squared_frequency;
+    stiffest_node_ = static_cast<int>(node);
+    if (!std::isfinite(largest)) break;
   }
   return largest;
 }

@@ -59,6 +59,8 @@ class Elements {
   /// Largest squared frequency [1/s^2] at positions `x`, from above: K <= sum_e omega_e^2 M_e over the elements, so it
   /// is at most the largest mean, over the elements of a node, of omega_e^2 weighted with their masses.
   double largest_squared_frequency(std::span<const Vec3> x);
+  /// The node that decided the last of these.
+  int stiffest_node() const { return stiffest_node_; }
   /// Diagonal matrix [N/m] that exceeds the stiffness matrix at positions `x`.
   std::vector<double> nodal_stiffness(std::span<const Vec3> x);
 
@@ -91,6 +93,7 @@ class Elements {
   std::vector<int> first_slot_;      ///< of each node in `slot_`, its elements before its faces
   std::vector<int> first_load_;      ///< the first of a face
   std::vector<const double*> slot_;  ///< where the elements of a node keep their force on it
+  int stiffest_node_ = 0;
   std::atomic<bool> out_of_bounds_ = false;
 };
 

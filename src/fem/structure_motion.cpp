@@ -162,11 +162,16 @@ void Structure::Data::compute_contact() {
   contact->compute_forces(x, v);
 }
 
-int Structure::Data::substeps_for(double dt) const {
-  // Far beyond any useful count: a state that asks for more is on its way out of the bounds of J.
-  constexpr int most = 1'000'000;
+int Structure::Data::substeps_for(double dt, double time) const {
+  // Far beyond any useful count: an element that asks for more is crushed or inverted between its Gauss points.
+  constexpr double most = 20'000;
   const double count = std::ceil(dt / stable_step());
-  return count < most ? std::max(1, static_cast<int>(count)) : most;
+  if (count <= most) return std::max(1, static_cast<int>(count));
+  const int node = elements.stiffest_node();
+  throw Diverged(
+      fmt::format("the structure is torn or inverted next to node {} near ({:.4g}, {:.4g}, {:.4g}) m at t = {:.6g} s: "
+                  "it would need more than {:g} sub-steps for {:.4g} s",
+                  node, x[node].x(), x[node].y(), x[node].z(), time, most, dt));
 }
 
 void Structure::Data::report_divergence(double time) const {
@@ -187,7 +192,7 @@ void Structure::Data::report_divergence(double time) const {
 
 void Structure::Data::advance_explicitly(double dt, double time) {
   estimate_largest_frequency();
-  substeps = substeps_for(dt);
+  substeps = substeps_for(dt, time);
   elements.forget_out_of_bounds();
   const double substep = dt / substeps;
   int done = 0;
