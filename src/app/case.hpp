@@ -92,8 +92,10 @@ struct ElasticBody {
   std::vector<HoldDescription> holds;
   std::vector<ForceDescription> forces;
   std::vector<fem::Pressure> pressures;
-  Vec3 gravity = Vec3::Zero();  ///< [m/s^2]
-  double damping = 0.0;         ///< [1/s]
+  Vec3 gravity = Vec3::Zero();     ///< [m/s^2]
+  double damping = 0.0;            ///< [1/s]
+  double stiffness_damping = 0.0;  ///< [s]
+  std::optional<fem::ContactOptions> contact;
   fem::StructureOptions structure;
   std::vector<Probe> probes;
   fsi::CouplingOptions coupling;

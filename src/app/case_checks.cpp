@@ -144,6 +144,12 @@ void check_fluid(const Case& c) {
 }
 
 void check_elastic(const Case& c, const std::string& key, const ElasticBody& body) {
+  if (body.contact && c.structure.at_rest) {
+    fail(c, key + ".contact", "needs a structure that moves, but structure.solver asks for equilibrium");
+  }
+  if (body.contact && body.coupling.scheme == fsi::Scheme::peskin) {
+    fail(c, key + ".contact", "needs coupling.scheme = \"added_mass\"; in \"peskin\" the fluid alone moves the body");
+  }
   const auto [low, high] = body.structure.volume_ratio;
   if (!(low < 1.0 && high > 1.0)) {
     fail(c, key + ".volume_ratio",
@@ -267,30 +273,31 @@ void check_case(const Case& c) {
   check_results(c);
 }
 
-void check_body_in_grid(const Case& c, const Body& body, std::span<const Vec3> points, const amr::Forest& forest) {
+void check_body_in_grid(const Case& c, const Body& body, const std::string& part, std::span<const Vec3> places,
+                        const amr::Forest& forest) {
   const auto* rigid = std::get_if<RigidBody>(&body.kind);
   const std::string key = fmt::format("body.{}.{}", body.name, rigid ? rigid->key : "mesh");
-  const char* point_name = rigid ? "point" : "node";
-  for (const Vec3& point : points) {
-    if (forest.locate(point)) continue;
-    fail(c, key, fmt::format("lies outside the domain: its {} at {} m", point_name, write_value(point)));
+  for (const Vec3& place : places) {
+    if (forest.locate(place)) continue;
+    fail(c, key, fmt::format("lies outside the domain: its {} at {} m", part, write_value(place)));
   }
   const int finest = level_of(c.domain.coarsest, c.finest);
-  for (const Vec3& point : points) {
+  for (const Vec3& place : places) {
     for (int corner = 0; corner < 8; ++corner) {
       const Vec3 sign(corner & 1 ? 1 : -1, corner & 2 ? 1 : -1, corner & 4 ? 1 : -1);
-      const auto place = forest.locate(point + delta_margin * c.finest * sign);
-      if (!place) {
+      const auto found = forest.locate(place + delta_margin * c.finest * sign);
+      if (!found) {
         fail(c, key,
-             fmt::format("comes within {} cells of a side of the domain: its {} at {} m", delta_margin, point_name,
-                         write_value(point)));
+             fmt::format("comes within {} cells of a side of the domain: its {} at {} m", delta_margin, part,
+                         write_value(place)));
       }
-      const int level = forest.block(place->block).level;
+      const int level = forest.block(found->block).level;
       if (level == finest) continue;
       fail(c, key,
            fmt::format("does not lie in cells of grid.finest = {} m with {} cells around it: its {} at {} m meets "
-                       "cells of {} m; widen a grid.region",
-                       c.finest, delta_margin, point_name, write_value(point), forest.spacing(level)));
+                       "cells of {} m; widen a grid.region{}",
+                       c.finest, delta_margin, part, write_value(place), forest.spacing(level),
+                       rigid ? "" : ", or take what need not meet the fluid out of it with coupled = false"));
     }
   }
 }

@@ -13,9 +13,10 @@ namespace drogue::app {
 /// Everything that can be told without meshes and grid.
 void check_case(const Case& c);
 
-/// The body, given by its nodes or by points of its surface [m], must lie in the domain, and in finest-level blocks
-/// with the delta function's margin.
-void check_body_in_grid(const Case& c, const Body& body, std::span<const Vec3> points, const amr::Forest& forest);
+/// Places [m] of a `part` of the body ("node of ...") must lie in the domain, and in finest-level blocks with the delta
+/// function's margin.
+void check_body_in_grid(const Case& c, const Body& body, const std::string& part, std::span<const Vec3> places,
+                        const amr::Forest& forest);
 
 /// Does something; an InputError about it is thrown again with file, line and key.
 void at_key(const Case& c, const std::string& key, const std::function<void()>& action);

@@ -39,8 +39,7 @@ fem::Region cable_region(const CableDescription& cable, const fem::Mesh& mesh) {
 
 fem::Model make_model(const Case& c, const Body& description, const fem::Mesh& mesh) {
   const ElasticBody& body = elastic(description);
-  fem::Model model{mesh, body.regions, {}, body.structure};
-  for (const CableDescription& cable : body.cables) model.regions.push_back(cable_region(cable, mesh));
+  fem::Model model{mesh, regions_of(body, mesh), {}, body.structure};
   for (const HoldDescription& hold : body.holds) {
     model.loads.holds.push_back(hold.hold);
     model.loads.holds.back().nodes = find_nodes(c, hold_key(description), hold.nodes, mesh);
@@ -55,6 +54,8 @@ fem::Model make_model(const Case& c, const Body& description, const fem::Mesh& m
   model.loads.pressures = body.pressures;
   model.loads.gravity = body.gravity;
   model.loads.damping = body.damping;
+  model.loads.stiffness_damping = body.stiffness_damping;
+  model.loads.contact = body.contact;
   return model;
 }
 
@@ -82,6 +83,12 @@ double structure_step(const Case& c) {
 double sum(std::span<const double> values) { return std::accumulate(values.begin(), values.end(), 0.0); }
 
 }  // namespace
+
+std::vector<fem::Region> regions_of(const ElasticBody& body, const fem::Mesh& mesh) {
+  std::vector<fem::Region> regions = body.regions;
+  for (const CableDescription& cable : body.cables) regions.push_back(cable_region(cable, mesh));
+  return regions;
+}
 
 CoupledElasticBody::CoupledElasticBody(const Case& c, const Body& body, const fem::Mesh& mesh,
                                        const amr::Forest* forest)
@@ -158,7 +165,7 @@ std::string CoupledElasticBody::report(const Case& c) const {
   std::string text = fmt::format("body    {}: {} nodes, {} elements, mass {:.4g} kg", description.name,
                                  s.mesh().nodes.size(), s.elements(), sum(s.own_mass()));
   if (coupling_) {
-    text += fmt::format("; {} points on the fluid, {:.4g} kg with the fluid they drag", s.inertia().point.size(),
+    text += fmt::format("; {} points on the fluid, {:.4g} kg with the fluid they drag", coupling_->points(),
                         sum(s.inertia().mass));
   }
   text += fmt::format("\n        {}; stable explicit step {:.3g} s, {:.0f} sub-steps in a {} of {:.3g} s\n", solver(),

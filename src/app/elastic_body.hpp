@@ -12,6 +12,9 @@
 
 namespace drogue::app {
 
+/// What the body's elements are made of, its cables last.
+std::vector<fem::Region> regions_of(const ElasticBody& body, const fem::Mesh& mesh);
+
 class CoupledElasticBody : public CoupledBody {
  public:
   /// `c`, `body` and `forest`, null without a fluid, outlive it. Throws InputError for a mesh or values that cannot be

@@ -69,7 +69,11 @@ Law read_law(Section& material) {
 }
 
 fem::MembraneMaterial read_membrane_material(Section& material, Law law, bool wrinkling) {
-  if (law == Law::fabric) return read_fabric(material);
+  if (law == Law::fabric) {
+    const fem::OrthotropicFabric fabric = read_fabric(material);
+    if (wrinkling) return fem::TensionField<fem::OrthotropicFabric>{fabric};
+    return fabric;
+  }
   if (law == Law::neo_hookean) {
     const fem::PlaneNeoHookean plane{read_neo_hookean(material)};
     if (wrinkling) return fem::TensionField<fem::PlaneNeoHookean>{plane};
@@ -89,9 +93,6 @@ fem::Membrane read_membrane(Section& section, Section& material, Law law) {
   if (membrane.warp.norm() == 0.0) section.fail("warp", "= [0, 0, 0] is no direction");
   const bool wrinkling = section.get<bool>(
       "wrinkling", {.doc = "whether a membrane folds rather than bear compression (tension field)", .fallback = false});
-  if (wrinkling && law == Law::fabric) {
-    section.fail("wrinkling", "= true needs an isotropic law; expected \"neo_hookean\" or \"saint_venant_kirchhoff\"");
-  }
   membrane.material = read_membrane_material(material, law, wrinkling);
   return membrane;
 }
@@ -114,6 +115,13 @@ fem::ActiveStress read_active(Section section) {
   if (direction.norm() == 0.0) section.fail("direction", "= [0, 0, 0] is no direction");
   active.direction = direction.normalized();
   return active;
+}
+
+/// Whether a part of the body meets the fluid, if there is one.
+bool read_coupled(Section& section, bool in_flow) {
+  return !in_flow || section.get<bool>("coupled", {.doc = "whether this part meets the fluid; one that does not may "
+                                                          "leave the finest cells and is not dragged",
+                                                   .fallback = true});
 }
 
 constexpr const char* active_doc = "active stress, of elements that pull by themselves";
@@ -150,12 +158,13 @@ fem::Region read_region(Section& section) {
   return region;
 }
 
-void read_regions(Section& section, ElasticBody& body) {
+void read_regions(Section& section, bool in_flow, ElasticBody& body) {
   section.each("region", "of the mesh, if not all of it is alike: density, material and so on stand here then",
                [&](Section& part) {
                  const std::string name = part.get<std::string>("name", {.doc = "of a physical group of the mesh"});
                  body.regions.push_back(read_region(part));
                  body.regions.back().elements = name;
+                 body.regions.back().coupled = read_coupled(part, in_flow);
                });
   const bool cables_alone = std::holds_alternative<fem::Mesh>(body.mesh);
   if ((body.regions.empty() && !cables_alone) || section.describing()) body.regions.push_back(read_region(section));
@@ -169,7 +178,7 @@ PointDescription read_point(Section& section) {
   return point;
 }
 
-CableDescription read_cable(Section& section) {
+CableDescription read_cable(Section& section, bool in_flow) {
   CableDescription cable;
   cable.name = section.get<std::string>("name", {.doc = "as a node set"});
   cable.from = section.get<std::string>("from", {.doc = "a node set: a cable begins at each of its nodes"});
@@ -181,6 +190,7 @@ CableDescription read_cable(Section& section) {
   const double density = read_density(section), area = read_section(section);
   cable.region = {cable.name, density, fem::Cable{read_cable_law(section), area}};
   cable.region.active = read_active(section.section("active", active_doc));
+  cable.region.coupled = read_coupled(section, in_flow);
   return cable;
 }
 
@@ -253,6 +263,22 @@ Probe read_probe(Section& section) {
   return probe;
 }
 
+fem::ContactOptions read_contact(Section section) {
+  fem::ContactOptions contact;
+  contact.gap =
+      section.get<double>("gap", {.unit = "m",
+                                  .doc = "within which surfaces push each other apart; no less than half an element",
+                                  .range = positive});
+  contact.stiffness = section.get<double>(
+      "stiffness", {.doc = "squared frequency of two points in contact, over the largest of the elements",
+                    .fallback = contact.stiffness,
+                    .range = {.min = 0.0, .max = 1.0, .open = true}});
+  contact.damping = section.get<double>(
+      "damping",
+      {.doc = "of that motion, over the critical one", .fallback = contact.damping, .range = {.min = 0.0, .max = 1.0}});
+  return contact;
+}
+
 void read_loads(Section& section, ElasticBody& body, bool in_flow) {
   section.each("hold", "nodes that are held near where they start",
                [&](Section& hold) { body.holds.push_back(read_hold(hold, in_flow)); });
@@ -277,6 +303,14 @@ void read_loads(Section& section, ElasticBody& body, bool in_flow) {
                   .fallback = Vec3(0.0, 0.0, 0.0)});
   body.damping = section.get<double>(
       "damping", {.unit = "1/s", .doc = "Rayleigh's, of the own mass", .fallback = 0.0, .range = not_negative});
+  body.stiffness_damping =
+      section.get<double>("stiffness_damping", {.unit = "s",
+                                                .doc = "Rayleigh's, of the stiffness; shortens the sub-step",
+                                                .fallback = 0.0,
+                                                .range = not_negative});
+  if (section.describing() || section.has("contact")) {
+    body.contact = read_contact(section.section("contact", "of the body's surfaces with each other and themselves"));
+  }
 }
 
 fem::StructureOptions read_structure(Section& body) {
@@ -325,11 +359,11 @@ Body read_elastic(Section& section, const Case& c) {
   ElasticBody body;
   const std::string name = read_name(section);
   body.mesh = read_mesh_description(section);
-  read_regions(section, body);
+  read_regions(section, in_flow, body);
   section.each("point", "a node that is added to the mesh, with or without a mass",
                [&](Section& point) { body.points.push_back(read_point(point)); });
   section.each("cable", "cables that are added to the mesh",
-               [&](Section& cable) { body.cables.push_back(read_cable(cable)); });
+               [&](Section& cable) { body.cables.push_back(read_cable(cable, in_flow)); });
   read_loads(section, body, in_flow);
   body.structure = read_structure(section);
   section.each("probe", "a displacement to be measured",

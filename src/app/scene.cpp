@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/scene.hpp"
 
+#include <fmt/format.h>
+
+#include <map>
 #include <string>
 #include <utility>
 
@@ -19,11 +22,38 @@ Meshes load_meshes(const Case& c, const std::filesystem::path& folder) {
   return meshes;
 }
 
+namespace {
+
+/// Where a body meets the fluid: its surface wherever it moves, or the nodes of a coupled region.
+struct Wetted {
+  std::string part;  ///< for messages
+  std::vector<Vec3> place;
+};
+
+std::vector<Wetted> wetted_parts(const Case& c, const Body& body, const Meshes& meshes) {
+  if (const auto* rigid = std::get_if<RigidBody>(&body.kind)) return {{"point", places_of(c, *rigid)}};
+  const fem::Mesh& mesh = meshes.at(body.name);
+  std::vector<Wetted> parts;
+  at_key(c, "body." + body.name, [&] {
+    for (const fem::Region& region : regions_of(std::get<ElasticBody>(body.kind), mesh)) {
+      if (!region.coupled) continue;
+      const std::string of = region.elements.empty() ? "" : fmt::format(" of region \"{}\"", region.elements);
+      Wetted& part = parts.emplace_back(Wetted{"node" + of, {}});
+      for (const int node : nodes_of(mesh, region)) part.place.push_back(mesh.nodes[node]);
+    }
+  });
+  return parts;
+}
+
+}  // namespace
+
 amr::Forest make_forest(const Case& c, const Meshes& meshes) {
-  std::map<std::string, std::vector<Vec3>> points;  // of a body: its nodes, or its surface wherever it moves
+  std::map<std::string, std::vector<Wetted>> parts;
+  std::map<std::string, std::vector<Vec3>> points;
   for (const Body& body : c.bodies) {
-    const auto* rigid = std::get_if<RigidBody>(&body.kind);
-    points[body.name] = rigid ? places_of(c, *rigid) : meshes.at(body.name).nodes;
+    parts[body.name] = wetted_parts(c, body, meshes);
+    std::vector<Vec3>& all = points[body.name];
+    for (const Wetted& part : parts[body.name]) all.insert(all.end(), part.place.begin(), part.place.end());
   }
   const double coarsest = c.domain.coarsest;
   std::vector<amr::RefinementCriterion> criteria;
@@ -33,7 +63,9 @@ amr::Forest make_forest(const Case& c, const Meshes& meshes) {
                    : amr::refine_near(points.at(region.body), region.distance, region.sweep, coarsest, region.spacing));
   }
   amr::Forest forest(c.domain, level_of(coarsest, c.finest), amr::any_of(std::move(criteria)));
-  for (const Body& body : c.bodies) check_body_in_grid(c, body, points.at(body.name), forest);
+  for (const Body& body : c.bodies) {
+    for (const auto& [part, place] : parts.at(body.name)) check_body_in_grid(c, body, part, place, forest);
+  }
   return forest;
 }
 

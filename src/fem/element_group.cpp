@@ -43,14 +43,16 @@ void ElementGroup::bound_frequencies(int batch, std::span<const Vec3> x) {
   }
 }
 
-double ElementGroup::largest_squared_frequency() const {
-  return *std::ranges::max_element(frequency_bound_) / region_.density;
-}
-
 void ElementGroup::add_stiffness(std::span<double> nodal_stiffness) const {
   for (int e = 0; e < count(); ++e) {
     const double share = frequency_bound_[e] * volume_of(e) / nodes_per_element();
     for (const int node : nodes_of(e)) nodal_stiffness[node] += share;
+  }
+}
+
+void ElementGroup::add_masses(std::span<double> nodal_mass) const {
+  for (int e = 0; e < count(); ++e) {
+    for (const int node : nodes_of(e)) nodal_mass[node] += region_.density * volume_of(e) / nodes_per_element();
   }
 }
 

@@ -64,8 +64,6 @@ class ElementGroup : public ForceGroup {
   void bound_frequencies(int batch, std::span<const Vec3> x);
   /// Own mass over the mass that moves along each direction; 1 to begin with.
   void set_lightness(int element, const std::array<double, 3>& lightness) { lightness_[element] = lightness; }
-  /// Largest squared frequency of an element [1/s^2], of the last bound_frequencies() of all batches.
-  double largest_squared_frequency() const;
 
   struct Extreme {
     int element;
@@ -76,8 +74,10 @@ class ElementGroup : public ForceGroup {
 
   virtual void add_volumes(std::span<double> nodal_volume) const = 0;  ///< [m^3]
   /// Adds to each node a stiffness [N/m] such that the matrix with their sum on its diagonal exceeds that of the
-  /// elements, of the last bound_frequencies() of all batches with lightness 1.
+  /// elements, of the last bound_frequencies() of all batches; each direction weighted with its lightness.
   void add_stiffness(std::span<double> nodal_stiffness) const;
+  /// Adds the masses of the elements [kg], shared like that stiffness.
+  void add_masses(std::span<double> nodal_mass) const;
   double elastic_energy(std::span<const Vec3> x) const;  ///< [J]
   std::array<double, 2> volume_ratio_range(std::span<const Vec3> x) const;
 

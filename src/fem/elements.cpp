@@ -41,7 +41,7 @@ void Elements::add_region(const Mesh& mesh, const Region& region, const std::arr
                     "solid: that of what surrounds it)",
                     region.density));
   }
-  const ElementSet set = elements_named(mesh, region.elements);
+  const ElementSet set = elements_of(mesh, region);
   const GroupDescription description{region, volume_ratio};
   const std::size_t before = groups_.size();
   const auto add = [&](std::unique_ptr<ElementGroup> group) {
@@ -75,12 +75,16 @@ void Elements::expect_one_region_each() const {
 
 void Elements::lump(std::size_t nodes) {
   nodal_volume_.assign(nodes, 0.0);
+  coupled_volume_.assign(nodes, 0.0);
   nodal_mass_.assign(nodes, 0.0);
+  shared_mass_.assign(nodes, 0.0);
   for (const auto& group : groups_) {
+    group->add_masses(shared_mass_);
     std::vector<double> volume(nodes, 0.0);
     group->add_volumes(volume);
     for (std::size_t node = 0; node < nodes; ++node) {
       nodal_volume_[node] += volume[node];
+      if (group->region().coupled) coupled_volume_[node] += volume[node];
       nodal_mass_[node] += group->region().density * volume[node];
     }
   }
@@ -186,9 +190,11 @@ void Elements::bound_frequencies(std::span<const Vec3> x) {
 }
 
 double Elements::largest_squared_frequency(std::span<const Vec3> x) {
-  bound_frequencies(x);
+  const std::vector<double> stiffness = nodal_stiffness(x);
   double largest = 0.0;
-  for (const auto& group : groups_) largest = std::max(largest, group->largest_squared_frequency());
+  for (std::size_t node = 0; node < stiffness.size(); ++node) {
+    largest = std::max(largest, stiffness[node] / shared_mass_[node]);
+  }
   return largest;
 }
 

@@ -31,8 +31,9 @@ class Elements {
   int count() const;
   /// As many threads as have enough elements each to be worth their barriers.
   int threads() const;
-  const std::vector<double>& nodal_volume() const { return nodal_volume_; }  ///< reference volume lumped [m^3]
-  const std::vector<double>& nodal_mass() const { return nodal_mass_; }      ///< own mass lumped [kg]
+  const std::vector<double>& nodal_volume() const { return nodal_volume_; }      ///< reference volume lumped [m^3]
+  const std::vector<double>& coupled_volume() const { return coupled_volume_; }  ///< of coupled regions alone [m^3]
+  const std::vector<double>& nodal_mass() const { return nodal_mass_; }          ///< own mass lumped [kg]
 
   /// A share of the pressures and active stresses of `time` [s] acts from now on.
   void set_time(double time, double share = 1.0);
@@ -55,7 +56,8 @@ class Elements {
   /// The element that was furthest out of bounds in the last compute_forces().
   Extreme worst() const;
 
-  /// Largest squared frequency of an element [1/s^2] at positions `x`, from above.
+  /// Largest squared frequency [1/s^2] at positions `x`, from above: K <= sum_e omega_e^2 M_e over the elements, so it
+  /// is at most the largest mean, over the elements of a node, of omega_e^2 weighted with their masses.
   double largest_squared_frequency(std::span<const Vec3> x);
   /// Diagonal matrix [N/m] that exceeds the stiffness matrix at positions `x`.
   std::vector<double> nodal_stiffness(std::span<const Vec3> x);
@@ -84,7 +86,8 @@ class Elements {
   };
   std::vector<std::unique_ptr<ElementGroup>> groups_;
   std::vector<Faces> faces_;
-  std::vector<double> nodal_volume_, nodal_mass_;
+  std::vector<double> nodal_volume_, coupled_volume_, nodal_mass_;
+  std::vector<double> shared_mass_;  ///< as ElementGroup::add_masses() lumps it [kg]
   std::vector<int> first_slot_;      ///< of each node in `slot_`, its elements before its faces
   std::vector<int> first_load_;      ///< the first of a face
   std::vector<const double*> slot_;  ///< where the elements of a node keep their force on it

@@ -5,6 +5,7 @@
 
 #include <variant>
 
+#include "fem/fabric_tension_field.hpp"
 #include "fem/linear_cable.hpp"
 #include "fem/neo_hookean.hpp"
 #include "fem/orthotropic_fabric.hpp"
@@ -19,7 +20,8 @@ namespace drogue::fem {
 using Material = std::variant<NeoHookean, SaintVenantKirchhoff>;
 
 /// Of membranes: functions of the right Cauchy-Green tensor in their plane, the stress across vanishing.
-using MembraneMaterial = std::variant<PlaneNeoHookean, PlaneSaintVenantKirchhoff, OrthotropicFabric,
-                                      TensionField<PlaneNeoHookean>, TensionField<PlaneSaintVenantKirchhoff>>;
+using MembraneMaterial =
+    std::variant<PlaneNeoHookean, PlaneSaintVenantKirchhoff, OrthotropicFabric, TensionField<PlaneNeoHookean>,
+                 TensionField<PlaneSaintVenantKirchhoff>, TensionField<OrthotropicFabric>>;
 
 }  // namespace drogue::fem

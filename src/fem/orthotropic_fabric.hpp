@@ -5,6 +5,8 @@
 // The thickness of a fabric is not told by its law; its volume ratio is that of the area.
 #pragma once
 
+#include <array>
+
 #include "fem/plane_tensor.hpp"
 #include "fem/simd_math.hpp"
 
@@ -34,6 +36,19 @@ struct OrthotropicFabric {
   template <class T>
   PlaneTensor<T> tangent(const PlaneTensor<T>&, const PlaneTensor<T>& dc) const {
     return of_strain(splat<T>(0.5) * dc);
+  }
+
+  /// Green-Lagrange strain under a stress [Pa], the inverse of the law.
+  template <class T>
+  PlaneTensor<T> strain_of(const PlaneTensor<T>& s) const {
+    const double inverse = 1.0 / (warp * weft - coupling * coupling);
+    return {inverse * (weft * s.xx - coupling * s.yy), inverse * (warp * s.yy - coupling * s.xx), (0.5 / shear) * s.xy};
+  }
+
+  /// Strain along a uniaxial stress in the direction t is {0} t_x^4 + {1} t_y^4 + {2} t_x^2 t_y^2 times it [1/Pa].
+  std::array<double, 3> uniaxial_compliance() const {
+    const double inverse = 1.0 / (warp * weft - coupling * coupling);
+    return {inverse * weft, inverse * warp, 1.0 / shear - 2.0 * inverse * coupling};
   }
 
   template <class T>

@@ -4,10 +4,12 @@
 
 #include <string>
 #include <variant>
+#include <vector>
 
 #include "core/expression.hpp"
 #include "core/types.hpp"
 #include "fem/material.hpp"
+#include "fem/mesh.hpp"
 
 namespace drogue::fem {
 
@@ -49,6 +51,13 @@ struct Region {
   double density = 0.0;  ///< own mass per reference volume [kg/m^3], positive
   std::variant<Cable, Solid, Membrane> kind;
   ActiveStress active{};
+  bool coupled = true;  ///< with what surrounds the body; elsewhere than in it otherwise
 };
+
+/// Those of its kind's families in its set. Throws InputError for a set that the mesh does not name.
+ElementSet elements_of(const Mesh& mesh, const Region& region);
+
+/// Nodes of its elements, in ascending order.
+std::vector<int> nodes_of(const Mesh& mesh, const Region& region);
 
 }  // namespace drogue::fem

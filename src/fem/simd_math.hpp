@@ -68,6 +68,15 @@ inline T larger(const T& a, const T& b) {
   return a > b ? a : b;
 }
 
+/// Whether a condition holds in every lane.
+inline bool all(bool condition) { return condition; }
+template <class Mask>
+inline bool all(const Mask& condition) {
+  bool every = true;
+  for (int lane = 0; lane < lanes; ++lane) every &= condition[lane] != 0;
+  return every;
+}
+
 inline double square_root(double x) { return std::sqrt(x); }
 inline Pack square_root(const Pack& x) {
   Pack root;

@@ -126,16 +126,22 @@ Structure::Data::Data(Model model)
   if (!(loads.damping >= 0.0)) {
     throw InputError(fmt::format("the structure's damping is {} 1/s; expected no negative number", loads.damping));
   }
-  for (const Hold& hold : loads.holds) {
-    hold_moves.push_back(hold.moves());
-    if (!hold.hinged || options.integrator != Integrator::implicit_scheme) continue;
-    throw InputError("a hold is hinged, which implicit motion does not know; expected explicit motion");
+  if (!(loads.stiffness_damping >= 0.0)) {
+    throw InputError(fmt::format("the structure's stiffness-proportional damping is {} s; expected no negative number",
+                                 loads.stiffness_damping));
+  }
+  for (const Hold& hold : loads.holds) hold_moves.push_back(hold.moves());
+  if (options.integrator == Integrator::implicit_scheme && needs_explicit_motion()) {
+    throw InputError(
+        "implicit motion knows no contact, no hinged hold and no stiffness-proportional damping; expected explicit "
+        "motion, or none of them");
   }
   loads_vary = elements.vary() || std::ranges::find(hold_moves, true) != hold_moves.end() ||
                std::ranges::any_of(loads.forces, [](const NodeLoad& load) { return vary(load.force); });
   for (const NodeLoad& load : loads.forces) {
     for (const int node : load.nodes) expect_node("a load", node, mesh.nodes.size());
   }
+  if (loads.stiffness_damping > 0.0) forced_at.resize(mesh.nodes.size());
   set_time(0.0);
   assign_points(every_node_alone(own_mass));
 }
@@ -171,7 +177,9 @@ void Structure::Data::assign_points(Inertia new_inertia) {
   hold_impulse.assign(points.size(), Vec3::Zero());
   assemble_mass();
   compare_masses();
+  contact.reset();
   estimate_largest_frequency();
+  if (loads.contact) contact.emplace(*loads.contact, mesh, regions, points, std::pow(largest_frequency, 2));
   reference_step = stable_step();
 }
 
@@ -250,6 +258,7 @@ std::span<const Vec3> Structure::position() const { return data_->x; }
 std::span<const Vec3> Structure::velocity() const { return data_->v; }
 std::span<const double> Structure::own_mass() const { return data_->own_mass; }
 std::span<const double> Structure::volume() const { return data_->elements.nodal_volume(); }
+std::span<const double> Structure::coupled_volume() const { return data_->elements.coupled_volume(); }
 
 void Structure::set_state(std::span<const Vec3> position, std::span<const Vec3> velocity) {
   assert(position.size() == data_->x.size() && velocity.size() == data_->v.size());

@@ -68,11 +68,12 @@ class Structure {
   Structure(Structure&&) noexcept;
 
   const Mesh& mesh() const;
-  int elements() const;                      ///< number of them, of all regions
-  std::span<const Vec3> position() const;    ///< [m] per node
-  std::span<const Vec3> velocity() const;    ///< [m/s] per node
-  std::span<const double> own_mass() const;  ///< [kg] per node: lumped from the elements, and point masses
-  std::span<const double> volume() const;    ///< [m^3] lumped reference volume per node
+  int elements() const;                            ///< number of them, of all regions
+  std::span<const Vec3> position() const;          ///< [m] per node
+  std::span<const Vec3> velocity() const;          ///< [m/s] per node
+  std::span<const double> own_mass() const;        ///< [kg] per node: lumped from the elements, and point masses
+  std::span<const double> volume() const;          ///< [m^3] lumped reference volume per node
+  std::span<const double> coupled_volume() const;  ///< [m^3] the part of it in coupled regions
   void set_state(std::span<const Vec3> position, std::span<const Vec3> velocity);
 
   /// Replaces the default inertia (every node a point of its own mass). Throws InputError for a mass that is not

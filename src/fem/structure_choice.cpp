@@ -12,11 +12,11 @@ namespace drogue::fem {
 namespace {
 
 constexpr double per_force = 10.0;         // on a node by an element
-constexpr double per_entry = 12.0;         // of the tangent of an element, computed and summed
+constexpr double per_entry = 10.0;         // of the tangent of an element, computed and summed
 constexpr double per_operation = 0.3;      // of a factorisation
 constexpr double implicit_iterations = 4;  // of a step
 constexpr double newton_iterations = 15;   // to an equilibrium
-constexpr double crossings = 100;          // of the body by a wave, to an equilibrium by relaxation
+constexpr double crossings = 60;           // of the body by a wave, to an equilibrium by relaxation
 
 /// Number of elements in a row from the node furthest from node 0 to the one furthest from that; parts that hang
 /// together with neither do not count.
@@ -48,6 +48,10 @@ int elements_across(const Elements& elements, std::size_t nodes) {
 
 }  // namespace
 
+bool Structure::Data::needs_explicit_motion() const {
+  return loads.contact || loads.stiffness_damping > 0.0 || std::ranges::any_of(loads.holds, &Hold::hinged);
+}
+
 double Structure::Data::cost_of_forces() const {
   double forces = 0.0;
   for (const ForceGroup* group : elements.force_groups()) forces += group->count() * group->nodes_per_element();
@@ -66,7 +70,7 @@ double Structure::Data::cost_of_newton() {
 Integrator Structure::integrator_for(double dt) const {
   Data& d = *data_;
   if (d.options.integrator != Integrator::cheaper) return d.options.integrator;
-  if (std::ranges::any_of(d.loads.holds, &Hold::hinged)) return Integrator::explicit_scheme;
+  if (d.needs_explicit_motion()) return Integrator::explicit_scheme;
   const double explicit_cost = std::ceil(dt / d.reference_step) * d.cost_of_forces();
   const bool may_pay = explicit_cost > implicit_iterations * 2.0 * d.cost_of_forces();  // spares the factorisation
   return may_pay && implicit_iterations * d.cost_of_newton() < explicit_cost ? Integrator::implicit_scheme

@@ -1,42 +1,20 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// State of a Structure. Its unknowns are the coordinates of its points: a node's position, or of a pair {a, b} the mean
-//   x_m = s_a x_a + s_b x_b  and the difference  d = x_a - x_b,  s_a = m_a / (m_a + m_b), s_b = 1 - s_a.
+// State of a Structure.
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
 
+#include "fem/contact.hpp"
 #include "fem/elements.hpp"
 #include "fem/newton.hpp"
+#include "fem/point.hpp"
 #include "fem/structure.hpp"
 
 namespace drogue::fem {
-
-/// Mass that resists in a coordinate, own mass in it, and reference volume by which a tether holds it.
-struct Inertance {
-  double mass;    ///< [kg]
-  double own;     ///< [kg]
-  double volume;  ///< [m^3]
-};
-
-using Holds = std::array<const Hold*, 3>;  ///< along each axis, or nullptr
-
-struct Point {
-  int a, b;  ///< nodes; b is -1 for a single one
-  double share_a, share_b;
-  Inertance mean, difference;
-  Vec3 weight;  ///< [N]
-  Holds hold;   ///< of the mean, and of a pair's difference but for a hinge
-
-  bool is_pair() const { return b >= 0; }
-  bool is_held() const { return hold[0] || hold[1] || hold[2]; }
-  bool may_turn(int axis) const { return hold[axis] == nullptr || hold[axis]->hinged; }
-  Vec3 mean_of(const std::vector<Vec3>& field) const {
-    return is_pair() ? Vec3(share_a * field[a] + share_b * field[b]) : field[a];
-  }
-};
 
 struct Structure::Data {
   explicit Data(Model model);
@@ -52,6 +30,7 @@ struct Structure::Data {
 
   Inertia inertia;
   std::vector<Point> points;
+  std::optional<Contact> contact;
   struct ThinElement {
     std::array<int, 8> nodes;
     int direction;  ///< parent direction along which pairs face each other
@@ -71,6 +50,7 @@ struct Structure::Data {
   NodalMatrix mass_matrix;              ///< of the points, see Inertia [kg]
   std::vector<Vec3> nodal_weight;       ///< of each node [N]
 
+  std::vector<Vec3> forced_at;  ///< where stiffness-proportional damping takes the forces of the elements [m]
   double largest_frequency = 0.0;
   int substeps = 0;
   Vec3 reaction = Vec3::Zero();
@@ -79,6 +59,8 @@ struct Structure::Data {
   void assemble_mass();
   void compare_masses();
   void estimate_largest_frequency();
+  void compute_forces(int substep);
+  void compute_contact();
   double stable_step() const;
   int substeps_for(double dt) const;
   void stop_rigidly_held();
@@ -92,6 +74,11 @@ struct Structure::Data {
     return hold_displacement[&hold - loads.holds.data()][axis];
   }
   void advance_explicitly(double dt, double time);
+  struct Coordinate {
+    Vec3 position, reference, velocity;
+  };
+  Vec3 resisted_change(const Point& p, const Inertance& inertance, const Vec3& f, bool follows, const Coordinate& at,
+                       double dt) const;
   void move(std::size_t point, double dt);
   void advance_implicitly(double dt, double time);
   struct ImplicitStep;
@@ -119,6 +106,7 @@ struct Structure::Data {
   void expect_unheld_parts_unloaded();
   [[noreturn]] void report_imbalance(double time, double residual, double tolerance);
   std::string describe(int node) const;
+  bool needs_explicit_motion() const;
   double cost_of_forces() const;
   double cost_of_newton();
   std::vector<double> fictitious_masses(const std::vector<double>& least_stiffness);

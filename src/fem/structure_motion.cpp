@@ -29,47 +29,54 @@ double damped_change(double kick, double f, double damping, double stiffness, do
 
 }  // namespace
 
+/// Change of velocity over `dt` where a hold or damping resists. `follows`: whether the coordinate moves with its hold.
+Vec3 Structure::Data::resisted_change(const Point& p, const Inertance& inertance, const Vec3& f, bool follows,
+                                      const Coordinate& at, double dt) const {
+  const double kick = dt / inertance.mass, damping = loads.damping * inertance.own;
+  Vec3 dv;
+  for (int axis = 0; axis < 3; ++axis) {
+    const Hold* hold = follows || !p.may_turn(axis) ? p.hold[axis] : nullptr;
+    const double target = at.reference[axis] + (hold && follows ? displacement_of(*hold, axis) : 0.0);
+    if (hold == nullptr) {
+      dv[axis] = damped_change(kick, f[axis], damping, 0.0, 0.0, at.velocity[axis], dt);
+    } else if (!hold->rigid) {
+      dv[axis] = damped_change(kick, f[axis], damping + hold->damping * inertance.volume,
+                               hold->stiffness * inertance.volume, target - at.position[axis], at.velocity[axis], dt);
+    } else if (hold_moves[hold - loads.holds.data()] && follows) {  // to the target, by what move_node() does
+      dv[axis] = ((target - at.position[axis]) / dt - at.velocity[axis]) / (1.0 + options.dissipation);
+    } else {
+      dv[axis] = 0.0;
+    }
+  }
+  return dv;
+}
+
 void Structure::Data::move(std::size_t i, double dt) {
   const Point& p = points[i];
-  // `of` takes the coordinate out of a nodal field; a mean follows its hold, a difference does not.
-  const auto velocity_change = [&](const Inertance& inertance, const Vec3& f, bool is_mean, const auto& of) -> Vec3 {
-    const double kick = dt / inertance.mass, damping = loads.damping * inertance.own;
-    Vec3 dv = kick * f;
-    if (!p.is_held() && damping == 0.0) return dv;
-    const Vec3 position = of(x), reference = of(mesh.nodes), velocity = of(v);
-    for (int axis = 0; axis < 3; ++axis) {
-      const Hold* hold = is_mean || !p.may_turn(axis) ? p.hold[axis] : nullptr;
-      const double target = reference[axis] + (hold && is_mean ? displacement_of(*hold, axis) : 0.0);
-      if (hold == nullptr) {
-        dv[axis] = damped_change(kick, f[axis], damping, 0.0, 0.0, velocity[axis], dt);
-      } else if (!hold->rigid) {
-        dv[axis] = damped_change(kick, f[axis], damping + hold->damping * inertance.volume,
-                                 hold->stiffness * inertance.volume, target - position[axis], velocity[axis], dt);
-      } else if (hold_moves[hold - loads.holds.data()] && is_mean) {  // to the target, by what move_node() does
-        dv[axis] = ((target - position[axis]) / dt - velocity[axis]) / (1.0 + options.dissipation);
-      } else {
-        dv[axis] = 0.0;
-      }
-    }
-    return dv;
+  const bool is_free = !p.is_held() && loads.damping == 0.0;
+  // `of` takes the coordinate out of a nodal field.
+  const auto velocity_change = [&](const Inertance& inertance, const Vec3& f, bool follows, const auto& of) -> Vec3 {
+    if (is_free) return (dt / inertance.mass) * f;
+    return resisted_change(p, inertance, f, follows, {of(x), of(mesh.nodes), of(v)}, dt);
   };
   const auto move_node = [&](int node, const Vec3& dv) {
     x[node] += dt * (v[node] + (1.0 + options.dissipation) * dv);
     v[node] += dv;
   };
   const auto mean_of = [&p](const std::vector<Vec3>& field) { return p.mean_of(field); };
+  const Vec3 load = contact && contact->touches() ? Vec3(p.weight + contact->force_on(i)) : p.weight;
   Vec3 force = nodal_force(p.a), dv;
   if (p.is_pair()) {
     const Vec3 force_b = nodal_force(p.b);
     const Vec3 dv_difference = velocity_change(p.difference, p.share_b * force - p.share_a * force_b, false,
                                                [&p](const auto& field) -> Vec3 { return field[p.a] - field[p.b]; });
     force += force_b;
-    force += p.weight;
+    force += load;
     dv = velocity_change(p.mean, force, true, mean_of);
     move_node(p.a, dv + p.share_b * dv_difference);
     move_node(p.b, dv - p.share_a * dv_difference);
   } else {
-    force += p.weight;
+    force += load;
     dv = velocity_change(p.mean, force, true, mean_of);
     move_node(p.a, dv);
   }
@@ -114,10 +121,45 @@ void Structure::Data::set_time(double time, double share) {
 
 void Structure::Data::estimate_largest_frequency() {
   largest_frequency = std::sqrt(elements.largest_squared_frequency(x));
+  if (!contact) return;
+  contact->watch(x);
+  compute_contact();
 }
 
 double Structure::Data::stable_step() const {
-  return options.safety * 2.0 / (std::sqrt(1.0 + 2.0 * options.dissipation) * largest_frequency);
+  double squared_frequency = largest_frequency * largest_frequency;
+  double damping_rate = loads.stiffness_damping * squared_frequency;
+  if (contact) {
+    squared_frequency += contact->largest_squared_frequency();
+    damping_rate += contact->largest_damping_rate();
+  }
+  // The positive root of (2 phi - 1) omega^2 dt^2 + 2 c dt = 4.
+  const double a = (1.0 + 2.0 * options.dissipation) * squared_frequency, c = damping_rate;
+  return options.safety * 4.0 / (c + std::sqrt(c * c + 4.0 * a));
+}
+
+/// Of elements, for nodal_force(), and of contact, at the start of a sub-step. Work is shared.
+void Structure::Data::compute_forces(int substep) {
+  constexpr int interval = 4;  // between looks at how far surfaces have moved, as many of which make up a margin
+  if (contact && substep % interval == 0) contact->watch(x);
+  if (loads.stiffness_damping == 0.0) {
+    elements.compute_forces(x);
+  } else {
+#pragma omp for schedule(static)
+    for (std::size_t node = 0; node < x.size(); ++node) forced_at[node] = x[node] + loads.stiffness_damping * v[node];
+    elements.compute_forces(forced_at);
+  }
+  if (contact && !elements.out_of_bounds()) compute_contact();
+}
+
+/// After Contact::watch(). Work is shared.
+void Structure::Data::compute_contact() {
+  if (contact->is_outdated()) {
+#pragma omp barrier  // before one thread changes what the others are asking for
+#pragma omp single
+    contact->renew(x);
+  }
+  contact->compute_forces(x, v);
 }
 
 int Structure::Data::substeps_for(double dt) const {
@@ -155,7 +197,7 @@ void Structure::Data::advance_explicitly(double dt, double time) {
 #pragma omp single
       set_time(time + (n + 1) * substep);
     }
-    elements.compute_forces(x);
+    compute_forces(n);
     if (elements.out_of_bounds()) break;
 #pragma omp single nowait
     done = n + 1;

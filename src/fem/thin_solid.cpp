@@ -119,6 +119,20 @@ std::vector<std::array<int, 2>> thickness_pairs(const Mesh& mesh, double max_thi
   return pairs;
 }
 
+std::vector<std::array<int, 4>> outer_faces(const Mesh& mesh) {
+  const std::vector<Face> boundary = boundary_faces(mesh);
+  std::vector<Face> outer;
+  for (const auto& element : mesh.hexahedra) {
+    for (int direction = 0; direction < 3; ++direction) {
+      for (int side = 0; side < 2; ++side) {
+        const Face face = face_of(element, direction, side);
+        if (std::binary_search(boundary.begin(), boundary.end(), sorted(face))) outer.push_back(face);
+      }
+    }
+  }
+  return outer;
+}
+
 std::vector<Vec3> area_normals(const Mesh& mesh) {
   std::vector<Vec3> normals(mesh.nodes.size(), Vec3::Zero());
   const auto add = [&](const auto& element) {

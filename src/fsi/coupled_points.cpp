@@ -15,12 +15,15 @@ namespace drogue::fsi {
 
 namespace {
 
-std::vector<std::array<int, 2>> pairs_then_single_nodes(const fem::Mesh& mesh, double spacing) {
-  std::vector<std::array<int, 2>> nodes = fem::thickness_pairs(mesh, spacing);
-  std::vector<bool> paired(mesh.nodes.size(), false);
+/// Of the nodes of coupled regions.
+std::vector<std::array<int, 2>> pairs_then_single_nodes(const fem::Structure& structure, double spacing) {
+  const std::span<const double> volume = structure.coupled_volume();
+  std::vector<std::array<int, 2>> nodes = fem::thickness_pairs(structure.mesh(), spacing);
+  std::erase_if(nodes, [&](const auto& pair) { return volume[pair[0]] == 0.0 || volume[pair[1]] == 0.0; });
+  std::vector<bool> paired(volume.size(), false);
   for (const auto& [a, b] : nodes) paired[a] = paired[b] = true;
   for (std::size_t node = 0; node < paired.size(); ++node) {
-    if (!paired[node]) nodes.push_back({static_cast<int>(node), -1});
+    if (!paired[node] && volume[node] > 0.0) nodes.push_back({static_cast<int>(node), -1});
   }
   return nodes;
 }
@@ -54,7 +57,7 @@ std::vector<double> dragged_masses(const fem::Structure& structure, const std::v
   }
   std::vector<double> mass = ib::mass_dragged_by_sheet(delta, fem::pair_areas(mesh, pairs), spacing, density);
   if (mass.size() < nodes.size()) {
-    const auto of_cloud = ib::mass_dragged_by_cloud(delta, mesh.nodes, structure.volume(), spacing, density);
+    const auto of_cloud = ib::mass_dragged_by_cloud(delta, mesh.nodes, structure.coupled_volume(), spacing, density);
     for (std::size_t p = mass.size(); p < nodes.size(); ++p) mass.push_back(of_cloud[nodes[p][0]]);
   }
   return mass;
@@ -65,13 +68,16 @@ std::vector<double> dragged_masses(const fem::Structure& structure, const std::v
 CoupledPoints couple_points(const fem::Structure& structure, ib::Delta delta, double spacing, double density,
                             const std::string& body) {
   CoupledPoints points;
-  points.nodes = pairs_then_single_nodes(structure.mesh(), spacing);
+  points.nodes = pairs_then_single_nodes(structure, spacing);
+  if (points.nodes.empty()) {
+    throw InputError(fmt::format("body '{}': no region is coupled with the fluid; expected at least one", body));
+  }
   points.normal = normals(structure.mesh(), points.nodes);
   points.dragged_mass = dragged_masses(structure, points.nodes, delta, spacing, density);
   for (int p = 0; p < points.size(); ++p) {
     double excess = 0.0;
     for (int node : points.nodes[p]) {
-      if (node >= 0) excess += structure.own_mass()[node] - density * structure.volume()[node];
+      if (node >= 0) excess += structure.own_mass()[node] - density * structure.coupled_volume()[node];
     }
     const double dragged = points.dragged_mass[p];
     if (!(dragged > 0.0 && dragged + 2.0 * excess >= 0.0)) {
@@ -84,6 +90,18 @@ CoupledPoints couple_points(const fem::Structure& structure, ib::Delta delta, do
     points.excess_mass.push_back(excess);
   }
   return points;
+}
+
+fem::Inertia inertia_of(const fem::Structure& structure, const CoupledPoints& points) {
+  fem::Inertia inertia{points.nodes, points.dragged_mass, points.excess_mass};
+  for (int p = 0; p < points.size(); ++p) inertia.mass[p] += points.excess_mass[p];
+  for (std::size_t node = 0; node < structure.own_mass().size(); ++node) {
+    if (structure.coupled_volume()[node] > 0.0) continue;
+    inertia.point.push_back({static_cast<int>(node), -1});
+    inertia.mass.push_back(structure.own_mass()[node]);
+    inertia.heavy_mass.push_back(structure.own_mass()[node]);
+  }
+  return inertia;
 }
 
 CoupledPoints split_into_nodes(const CoupledPoints& points) {

@@ -29,6 +29,12 @@ CoupledPoints points_for(const fem::Structure& structure, const amr::Forest& for
 
 void expect_neutrally_buoyant(const fem::Structure& structure, const CouplingOptions& options) {
   for (std::size_t node = 0; node < structure.volume().size(); ++node) {
+    if (structure.coupled_volume()[node] < structure.volume()[node]) {
+      throw InputError(
+          fmt::format("body '{}': the peskin scheme moves all of a body with the fluid, but node {} belongs to a "
+                      "region that is not coupled; couple it, or use the added_mass scheme",
+                      options.body, node));
+    }
     const double displaced = options.fluid_density * structure.volume()[node];
     if (std::abs(structure.own_mass()[node] - displaced) <= 1e-9 * displaced) continue;
     throw InputError(
@@ -55,9 +61,7 @@ Coupling::Coupling(fem::Structure& structure, const amr::Forest& forest, const C
       options_(options),
       points_(points_for(structure, forest, options)),
       markers_(forest, options.delta, options.body) {
-  fem::Inertia inertia{points_.nodes, points_.dragged_mass, points_.excess_mass};
-  for (int p = 0; p < points_.size(); ++p) inertia.mass[p] += points_.excess_mass[p];
-  structure_->set_inertia(std::move(inertia));
+  structure_->set_inertia(inertia_of(structure, points_));
   if (options.scheme == Scheme::peskin) {
     expect_neutrally_buoyant(structure, options);
     points_ = split_into_nodes(points_);

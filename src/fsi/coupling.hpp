@@ -37,8 +37,11 @@ struct CouplingRecord {
 class Coupling : public fluid::FineStepHook {
  public:
   /// `structure` outlives the coupling; its inertia is set here. Throws InputError if the solid is too light (see
-  /// couple_points), or, for `peskin`, not of the fluid's density.
+  /// couple_points), or, for `peskin`, not of the fluid's density or not coupled as a whole.
   Coupling(fem::Structure& structure, const amr::Forest& forest, const CouplingOptions& options);
+
+  /// Points through which the body meets the fluid.
+  int points() const { return points_.size(); }
 
   /// Throws InputError if the body leaves the finest blocks, Diverged if an element is torn.
   void on_fine_step(fluid::FineStep& step) override;

@@ -91,7 +91,7 @@ std::vector<double> mass_dragged_by_cloud(Delta delta, std::span<const Vec3> pos
     };
     for (int l = k; l >= 0 && here[axis] - position[order[l]][axis] < reach; --l) visit(l);
     for (int l = k + 1; l < markers && position[order[l]][axis] - here[axis] < reach; ++l) visit(l);
-    mass[order[k]] = density * volume[order[k]] / row_sum;
+    if (row_sum > 0.0) mass[order[k]] = density * volume[order[k]] / row_sum;
   }
   return mass;
 }

@@ -25,7 +25,8 @@ std::vector<double> mass_dragged_by_sheet(Delta delta, std::span<const double> a
 
 /// Markers of any cloud that each own `volume` [m^3]: M_l = rho V_l / sum_k K_lk V_k [kg], with K averaged over the
 /// places of the grid. That is rho V_l inside a volume that is sampled at least as finely as the grid, twice as much at
-/// its plane faces, the value above for a single layer, and rho (dx / sum_phi_squared)^3 for a marker on its own.
+/// its plane faces, the value above for a single layer, rho L (dx / sum_phi_squared)^2 for the length L of a straight
+/// line, rho (dx / sum_phi_squared)^3 for a marker on its own, and nothing for one without volume.
 std::vector<double> mass_dragged_by_cloud(Delta delta, std::span<const Vec3> position, std::span<const double> volume,
                                           double spacing, double density);
 

@@ -68,19 +68,23 @@ inline std::vector<Vec3> internal_force(const Structure& body, const std::vector
   return force;
 }
 
-inline double largest_norm(const std::vector<Vec3>& field) {
-  double largest = 0.0;
-  for (const Vec3& v : field) largest = std::max(largest, v.norm());
-  return largest;
-}
+inline std::vector<Vec3> copy(std::span<const Vec3> field) { return {field.begin(), field.end()}; }
+
+inline double energy(const Structure& body) { return body.kinetic_energy() + body.elastic_energy(); }
 
 /// Velocities of the leapfrog scheme stand half a sub-step behind; advanced to the positions they belong to an energy
 /// that does not depend on the phase of a vibration.
 inline double synchronised_energy(const Structure& body, double substep) {
-  const auto force = internal_force(body, {body.position().begin(), body.position().end()});
+  const auto force = internal_force(body, copy(body.position()));
   double power = 0.0;
   for (std::size_t i = 0; i < force.size(); ++i) power += force[i].dot(body.velocity()[i]);
-  return body.kinetic_energy() + body.elastic_energy() + 0.5 * substep * power;
+  return energy(body) + 0.5 * substep * power;
+}
+
+inline double largest_norm(const std::vector<Vec3>& field) {
+  double largest = 0.0;
+  for (const Vec3& v : field) largest = std::max(largest, v.norm());
+  return largest;
 }
 
 /// The pairs of a thin body, each with `factor` times its own mass.

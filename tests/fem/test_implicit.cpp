@@ -23,10 +23,6 @@ StructureOptions implicit(double spectral_radius) {
   return options;
 }
 
-double energy(const Structure& body) { return body.kinetic_energy() + body.elastic_energy(); }
-
-std::vector<Vec3> copy(std::span<const Vec3> field) { return {field.begin(), field.end()}; }
-
 double distance(std::span<const Vec3> a, std::span<const Vec3> b) {
   double largest = 0.0;
   for (std::size_t i = 0; i < a.size(); ++i) largest = std::max(largest, (a[i] - b[i]).norm());

@@ -15,9 +15,12 @@ using Plane = PlaneTensor<double>;
 
 const PlaneNeoHookean neo_hookean{NeoHookean(1e3, 0.3, 0.3)};
 const PlaneSaintVenantKirchhoff saint_venant_kirchhoff{SaintVenantKirchhoff(1e3, 0.3)};
-const std::vector<MembraneMaterial> laws{neo_hookean, saint_venant_kirchhoff, OrthotropicFabric(2e3, 1e3, 0.4, 300.0),
+const std::vector<MembraneMaterial> laws{neo_hookean,
+                                         saint_venant_kirchhoff,
+                                         OrthotropicFabric(2e3, 1e3, 0.4, 300.0),
                                          TensionField<PlaneNeoHookean>{neo_hookean},
-                                         TensionField<PlaneSaintVenantKirchhoff>{saint_venant_kirchhoff}};
+                                         TensionField<PlaneSaintVenantKirchhoff>{saint_venant_kirchhoff},
+                                         TensionField<OrthotropicFabric>{OrthotropicFabric(2e3, 1e3, 0.4, 300.0)}};
 
 double norm(const Plane& a) { return std::sqrt(dot(a, a)); }
 
@@ -97,6 +100,82 @@ TEST(PlaneLaws, a_tension_field_is_never_compressed) {
     }
   }
   EXPECT_EQ(norm(field.stress(stretched(0.99, 0.5, 0.2))), 0.0);
+}
+
+/// All principal stretches between 0.4 and 1.4, all ways round.
+template <class Visit>
+void each_state(const Visit& visit) {
+  for (double a = 0.4; a < 1.4; a += 0.1) {
+    for (double b = 0.4; b <= a; b += 0.1) {
+      for (double angle = 0.05; angle < std::numbers::pi; angle += 0.2) visit(stretched(a, b, angle));
+    }
+  }
+}
+
+const OrthotropicFabric stiff_in_warp(2e3, 300.0, 0.4, 20.0);
+const TensionField<OrthotropicFabric> folding{stiff_in_warp};
+
+TEST(FabricTensionField, of_an_isotropic_fabric_is_that_of_the_isotropic_law) {
+  const TensionField<PlaneSaintVenantKirchhoff> isotropic{saint_venant_kirchhoff};
+  const TensionField<OrthotropicFabric> fabric{OrthotropicFabric(1e3, 1e3, 0.3, 1e3 / 2.6)};
+  each_state([&](const Plane& c) {
+    EXPECT_NEAR(fabric.energy(c), isotropic.energy(c), 1e-9);
+    EXPECT_LT(norm(fabric.stress(c) - isotropic.stress(c)), 1e-6);
+  });
+}
+
+TEST(FabricTensionField, is_never_compressed_and_gives_uniaxial_tension_where_it_folds) {
+  int folded = 0;
+  each_state([&](const Plane& c) {
+    const Plane s = folding.stress(c);
+    EXPECT_GE(trace(s), 0.0);
+    EXPECT_GE(determinant(s), -1e-12 * dot(s, s));
+    if (determinant(stiff_in_warp.stress(c)) >= 0.0 || trace(s) == 0.0) return;
+    ++folded;
+    // The strain that is left over is a fold: a shortening across the tension, which does no work.
+    const Plane over = green_lagrange(c) - stiff_in_warp.strain_of(s);
+    EXPECT_LT(trace(over), 0.0);
+    EXPECT_NEAR(determinant(over), 0.0, 1e-9);
+    EXPECT_NEAR(dot(over, s), 0.0, 1e-7 * norm(s));
+  });
+  EXPECT_GT(folded, 100);
+}
+
+TEST(FabricTensionField, along_the_yarns_and_in_pure_shear_is_what_the_theory_says) {
+  // Pulled along the warp and pushed together across, it bears E_1 times the strain.
+  const Plane pulled = folding.stress(Plane{1.2, 0.5, 0.0});
+  EXPECT_NEAR(pulled.xx, 2e3 * 0.1, 1e-9);
+  EXPECT_NEAR(pulled.yy, 0.0, 1e-9);
+  // Sheared by a small angle between equal yarns it folds along a diagonal: D_tt = (1 / E_1 + 1 / E_2 + 1 / G) / 4.
+  const double young = 1e3, shear = 50.0, e = 1e-3;
+  const TensionField<OrthotropicFabric> equal{OrthotropicFabric(young, young, 0.0, shear)};
+  const Plane sheared = equal.stress(Plane{1.0, 1.0, 2.0 * e});
+  EXPECT_NEAR(norm(sheared), e * 4.0 / (2.0 / young + 1.0 / shear), 1e-9);
+  EXPECT_NEAR(sheared.xx, sheared.xy, 1e-9);
+}
+
+TEST(FabricTensionField, is_convex_below_the_law_and_lowered_by_folds) {
+  const auto strain = random_vectors(400, 0.3, 3);
+  const auto energy = [](const Vec3& e) { return folding.energy(Plane{1 + 2 * e[0], 1 + 2 * e[1], 2 * e[2]}); };
+  for (std::size_t k = 0; k + 1 < strain.size(); k += 2) {
+    const Vec3 &a = strain[k], &b = strain[k + 1];
+    EXPECT_LE(energy(a), stiff_in_warp.energy(Plane{1 + 2 * a[0], 1 + 2 * a[1], 2 * a[2]}) * (1.0 + 1e-12));
+    EXPECT_LE(energy(0.5 * (a + b)), 0.5 * (energy(a) + energy(b)) + 1e-12);
+    // Nothing that folds adds to it costs anything.
+    const double angle = a[0] * 10.0;
+    const Vec3 fold = Vec3(std::pow(std::cos(angle), 2), std::pow(std::sin(angle), 2), 0.5 * std::sin(2 * angle));
+    EXPECT_LE(energy(a - 0.1 * fold), energy(a) + 1e-12);
+  }
+}
+
+TEST(FabricTensionField, packs_do_what_numbers_do) {
+  each_state([&](const Plane& c) {
+    const PlaneTensor<Pack> packs{splat<Pack>(c.xx), splat<Pack>(c.yy), splat<Pack>(c.xy)};
+    const auto s = folding.stress(packs);
+    const Plane expected = folding.stress(c);
+    EXPECT_NEAR(s.xx[0], expected.xx, 1e-9);
+    EXPECT_NEAR(s.xy[lanes - 1], expected.xy, 1e-9);
+  });
 }
 
 Mesh patch(bool triangles) {

@@ -59,6 +59,8 @@ std::vector<Sample> samples() {
       add("neo-Hookean " + of, mesh, Membrane{plane_neo_hookean, 0.1});
       add("Saint Venant-Kirchhoff " + of, mesh, Membrane{plane_saint_venant_kirchhoff, 0.1});
       add("fabric " + of, mesh, Membrane{OrthotropicFabric(1e3, 5e2, 0.2, 3e2), 0.1, Vec3(1, 1, 0)});
+      add("wrinkling fabric " + of, mesh,
+          Membrane{TensionField<OrthotropicFabric>{OrthotropicFabric(1e3, 5e2, 0.2, 3e2)}, 0.1, Vec3(1, 1, 0)});
       add("wrinkling neo-Hookean " + of, mesh, Membrane{TensionField<PlaneNeoHookean>{plane_neo_hookean}, 0.1});
       add("wrinkling Saint Venant-Kirchhoff " + of, mesh,
           Membrane{TensionField<PlaneSaintVenantKirchhoff>{plane_saint_venant_kirchhoff}, 0.1});

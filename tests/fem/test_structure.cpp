@@ -23,10 +23,6 @@ const double thickness_speed = std::sqrt(1346.15);
 
 Mesh thin_plate() { return make_plate({Vec3::Zero(), 0, {0.1, 0.08}, 5e-3, {7, 5, 1}}); }
 
-std::vector<Vec3> copy(std::span<const Vec3> field) { return {field.begin(), field.end()}; }
-
-double energy(const Structure& body) { return body.kinetic_energy() + body.elastic_energy(); }
-
 struct Momenta {
   Vec3 linear = Vec3::Zero(), angular = Vec3::Zero();
 };
@@ -60,10 +56,14 @@ TEST(Structure, free_vibration_keeps_its_energy_over_a_hundred_periods) {
     bar.set_state(mesh.nodes, v);
     const double period = 2.0 * length / bar_speed, dt = period / 2.0;
     const double start = bar.kinetic_energy();
+    double largest = 0.0;
     for (int half_period = 0; half_period < 200; ++half_period) {
       bar.advance(dt, 0.0);
-      EXPECT_NEAR(synchronised_energy(bar, dt / bar.substeps()) / start, 1.0, 1e-3) << half_period;
+      const double change = synchronised_energy(bar, dt / bar.substeps()) / start - 1.0;
+      EXPECT_LT(std::abs(change), 1e-3) << half_period;
+      largest = std::max(largest, std::abs(change));
     }
+    std::printf("largest change of the energy: %.2g\n", largest);
   }
 }
 

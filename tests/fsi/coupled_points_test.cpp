@@ -70,17 +70,35 @@ TEST(CoupledPoints, split_nodes_share_what_their_pair_has) {
   }
 }
 
+/// A square of fabric in the plane z = 0 with a line of 40 cells that ends 40 cells above its middle.
+struct Parasol {
+  fem::Mesh mesh;
+  int sheet_nodes = 0;
+
+  fem::Structure structure(bool line_is_coupled = true) const {
+    const fem::OrthotropicFabric fabric(1e6, 1e6, 0.0, 4e5);
+    return fem::Structure({mesh,
+                           {{"", 500.0, fem::Membrane{fabric, 1e-4}},
+                            {"line", 800.0, fem::Cable{{1e6, true}, 1e-6}, {}, line_is_coupled}},
+                           {},
+                           {}});
+  }
+};
+
+Parasol parasol() {
+  const double half = 8 * dx;
+  Parasol body{fem::make_sheet(
+      {{Vec3(-half, -half, 0), Vec3(half, -half, 0), Vec3(half, half, 0), Vec3(-half, half, 0)}, {32, 32}})};
+  body.sheet_nodes = static_cast<int>(body.mesh.nodes.size());
+  const int top = fem::add_point(body.mesh, "top", Vec3(0.0, 0.0, 40 * dx));
+  fem::add_line(body.mesh, "line", node_nearest(body.mesh, Vec3::Zero()), top, 80);
+  return body;
+}
+
 TEST(CoupledPoints, a_membrane_is_one_layer_of_markers_and_a_cable_a_line) {
   const double half = 8 * dx;
-  fem::Mesh mesh = fem::make_sheet(
-      {{Vec3(-half, -half, 0), Vec3(half, -half, 0), Vec3(half, half, 0), Vec3(-half, half, 0)}, {32, 32}});
-  const int sheet_nodes = static_cast<int>(mesh.nodes.size());
-  const int top = fem::add_point(mesh, "top", Vec3(0.0, 0.0, 40 * dx));
-  fem::add_line(mesh, "line", node_nearest(mesh, Vec3::Zero()), top, 80);
-  const fem::OrthotropicFabric fabric(1e6, 1e6, 0.0, 4e5);
-  fem::Model model{
-      mesh, {{"", 500.0, fem::Membrane{fabric, 1e-4}}, {"line", 800.0, fem::Cable{{1e6, true}, 1e-6}}}, {}, {}};
-  const fem::Structure body(std::move(model));
+  const auto& [mesh, sheet_nodes] = parasol();
+  const fem::Structure body = parasol().structure();
   const CoupledPoints points = points_of(body);
   ASSERT_EQ(points.size(), static_cast<int>(mesh.nodes.size()));
   const double per_cell = 1.0 / ib::sum_phi_squared(ib::Delta::peskin4);
@@ -97,6 +115,55 @@ TEST(CoupledPoints, a_membrane_is_one_layer_of_markers_and_a_cable_a_line) {
       EXPECT_EQ(points.normal[p], Vec3::Zero());
     }
   }
+}
+
+TEST(CoupledPoints, a_line_drags_the_same_mass_per_length_however_many_markers_it_has) {
+  const double per_length = fluid_density * std::pow(dx / ib::sum_phi_squared(ib::Delta::peskin4), 2);
+  for (const int elements : {20, 40, 160}) {  // every two cells to four a cell
+    fem::Mesh mesh;
+    const int from = fem::add_point(mesh, "from", Vec3::Zero()), to = fem::add_point(mesh, "to", Vec3(0, 0, 40 * dx));
+    fem::add_line(mesh, "line", from, to, elements);
+    const fem::Structure cable({mesh, {{"", 800.0, fem::Cable{{1e6, true}, 1e-6}}}, {}, {}});
+    const CoupledPoints points = points_of(cable);
+    for (int p = 0; p < points.size(); ++p) {
+      const double z = mesh.nodes[points.nodes[p][0]].z();
+      if (z < 4 * dx || z > 36 * dx) continue;
+      // At two cells the sum over markers is no longer the integral of the delta function's overlap.
+      EXPECT_NEAR(points.dragged_mass[p] * elements / (40 * dx * per_length), 1.0, elements == 20 ? 0.02 : 1e-3);
+    }
+  }
+}
+
+TEST(CoupledPoints, nodes_whose_regions_are_all_uncoupled_meet_no_fluid_and_keep_their_own_mass) {
+  const auto& [mesh, sheet_nodes] = parasol();
+  const fem::Structure body = parasol().structure(false);
+  const CoupledPoints points = points_of(body);
+  ASSERT_EQ(points.size(), sheet_nodes);
+  const CoupledPoints bare = points_of(fem::Structure(
+      {fem::make_sheet({{mesh.nodes[0], mesh.nodes[32], mesh.nodes[33 * 33 - 1], mesh.nodes[33 * 32]}, {32, 32}}),
+       {{"", 500.0, fem::Membrane{fem::OrthotropicFabric(1e6, 1e6, 0.0, 4e5), 1e-4}}},
+       {},
+       {}}));
+  for (int p = 0; p < points.size(); ++p) EXPECT_NEAR(points.dragged_mass[p] / bare.dragged_mass[p], 1.0, 1e-12);
+  // The node they share displaces what the sheet there does, and carries half an element of the line besides.
+  const int joint = node_nearest(mesh, Vec3::Zero());
+  EXPECT_NEAR(points.excess_mass[joint] - bare.excess_mass[joint], 0.5 * 800.0 * 1e-6 * 0.5 * dx, 1e-15);
+  const fem::Inertia inertia = inertia_of(body, points);
+  ASSERT_EQ(inertia.point.size(), mesh.nodes.size());
+  for (std::size_t p = points.size(); p < inertia.point.size(); ++p) {
+    const int node = inertia.point[p][0];
+    EXPECT_GE(node, sheet_nodes);
+    EXPECT_EQ(inertia.mass[p], body.own_mass()[node]);
+    EXPECT_EQ(inertia.heavy_mass[p], body.own_mass()[node]);
+  }
+}
+
+TEST(CoupledPoints, a_body_that_is_coupled_nowhere_is_refused) {
+  fem::Mesh mesh;
+  const int from = fem::add_point(mesh, "from", Vec3::Zero()), to = fem::add_point(mesh, "to", Vec3::UnitZ());
+  fem::add_line(mesh, "line", from, to, 4);
+  const fem::Structure dry({mesh, {{"", 800.0, fem::Cable{{1e6, true}, 1e-6}, {}, false}}, {}, {}});
+  EXPECT_THROW(points_of(dry), InputError);
 }
 
 TEST(CoupledPoints, a_thick_solid_lighter_than_half_the_fluid_is_rejected_and_a_thin_one_is_not) {
