@@ -31,7 +31,7 @@ beam() {
 # flag NAME FINEST ELEMENTS RATIO WHAT [ARGUMENTS]: cells of 1/FINEST, ELEMENTS elements across, mass ratio RATIO.
 flag() {
   local grid="--set grid.finest=1/$2 --set grid.region.1.spacing=2/$2 --set grid.region.2.spacing=4/$2"
-  [[ $2 != 48 ]] || grid+=' --set grid.coarsest=1/12 --set domain.upper=["26/3",4,2]'
+  [[ $2 != 48 && $2 != 96 ]] || grid+=' --set grid.coarsest=1/12 --set domain.upper=["26/3",4,2]'
   echo "flag-$1|flag_3d|$5|$grid --set body.flag.mesh.elements=[$3,$3,1] --set body.flag.density=1+100*$4 ${6:-}"
 }
 short="--set output.fluid=0 --set time.end=14 --set results.stable_window=[6,14]"
@@ -58,13 +58,15 @@ matrix() {
   done
   local longer='--set time.end=24 --set results.stable_window=[12,24]'
   flag 32 32 32 1 'cells of 1/32, until 24 s' "$longer"
-  flag 48 48 48 1 'cells of 1/48'
   flag 64 64 64 1 'cells of 1/64, the case'
   flag 48-coarse 48 32 1 'cells of 1/48, 32 x 32 elements'
   flag 64-coarse 64 32 1 'cells of 1/64, 32 x 32 elements, until 24 s' "$longer"
+  flag 96-coarse 96 32 1 'cells of 1/96, 32 x 32 elements, until 16 s' '--set output.fluid=0 --set time.end=16 --set results.stable_window=[9,16]'
   flag 32-fine 32 64 1 'cells of 1/32, 64 x 64 elements, until 14 s' "$short"
   flag 32-delta-3 32 32 1 'cells of 1/32, three-point delta, until 14 s' "$short --set body.flag.coupling.delta=peskin3"
   flag 32-step-half 32 32 1 'cells of 1/32, half the time step and Mach number, until 14 s' "$short --set fluid.lattice_velocity=0.05"
+  flag 32-rr 32 32 1 'cells of 1/32, recursive regularised collision, until 14 s' "$short --set fluid.collision=\"rr\""
+  flag 32-thin 32 32 1 'cells of 1/32, half as thick at the same weight and bending rigidity, until 14 s' "$short --set body.flag.mesh.thickness=0.005 --set body.flag.density=201 --set body.flag.material.young=8064"
   flag 32-trilinear 32 32 1 'cells of 1/32, trilinear elements, until 14 s' "$short --set body.flag.element=\"trilinear\""
   flag 32-light 32 32 0.1 'cells of 1/32, mass ratio 0.1, until 14 s' "$short"
   flag 32-massless 32 32 0 'cells of 1/32, mass ratio 0, until 14 s' "$short"
