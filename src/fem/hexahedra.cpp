@@ -3,8 +3,12 @@
 //
 // In the parent cube [-1, 1]^3 a derivative along xi depends on eta and zeta alone, so each of the three columns of
 // D = dx/dxi takes four values at the 2x2x2 Gauss points, interpolated from the four edges along xi. Hence
-// F = D A with the stored A = (dX/dxi)^{-1}, and the forces are the transposed interpolation of w P A^T, w = det
-// dX/dxi. That is a third of the arithmetic and of the memory traffic of eight stored gradients per Gauss point.
+// F = D A with A = (dX/dxi)^{-1}, and the forces are the transposed interpolation of H = w P A^T, w = det dX/dxi. That
+// is a third of the arithmetic and of the memory traffic of eight stored gradients per Gauss point.
+//
+// Of P = a F + b F F^T F + c cof F (isotropic_stress.hpp) F itself is not needed: with the stored M = A A^T
+//   H = w a D M + w b D M (D^T D M) + c cof D,   F : F = D : D M,   J = det D / w,
+// since cof F A^T = cof D cof A A^T = cof D det A, which saves two products of tensors.
 #include "fem/batched_group.hpp"
 #include "fem/hex_kernel.hpp"
 
@@ -18,7 +22,8 @@ struct HexBatch {
 
   struct Point {
     Tensor<Pack> inverse_jacobian;  ///< A [1/m]
-    Pack weight;                    ///< w [m^3]
+    Pack weight, per_weight;        ///< w [m^3] and its inverse
+    std::array<Pack, 6> metric;     ///< of M, xx, xy, xz, yy, yz, zz [1/m^2]
   };
   BatchNodes<8> node;
   std::array<Point, 8> point;  ///< 2x2x2 Gauss points, xi fastest
@@ -26,13 +31,18 @@ struct HexBatch {
 };
 
 inline HexBatch::Point geometry(const Tensor<Pack>& jacobian) {
-  const Pack weight = determinant(jacobian);
-  return {(1.0 / weight) * transposed(cofactor(jacobian)), weight};
+  const Pack weight = determinant(jacobian), per_weight = 1.0 / weight;
+  const Tensor<Pack> a = per_weight * transposed(cofactor(jacobian)), m = a * transposed(a);
+  return {a, weight, per_weight, {m(0, 0), m(0, 1), m(0, 2), m(1, 1), m(1, 2), m(2, 2)}};
 }
 
-/// Adds w P A^T of a Gauss point to the lines through it.
-inline void accumulate(LineField& flux, int point, const Tensor<Pack>& stress, const HexBatch::Point& reference) {
-  const Tensor<Pack> h = reference.weight * (stress * transposed(reference.inverse_jacobian));
+inline Tensor<Pack> metric_of(const HexBatch::Point& reference) {
+  constexpr int place[3][3] = {{0, 1, 2}, {1, 3, 4}, {2, 4, 5}};
+  return tensor<Pack>([&](int i, int j) { return reference.metric[place[i][j]]; });
+}
+
+/// Adds H of a Gauss point to the lines through it.
+inline void accumulate(LineField& flux, int point, const Tensor<Pack>& h) {
   for (int direction = 0; direction < 3; ++direction) {
     for (int axis = 0; axis < 3; ++axis) flux.at[direction][line_through(direction, point)][axis] += h(axis, direction);
   }
@@ -71,12 +81,19 @@ VolumeRatio nodal_forces(const Law& law, const ActiveFibre& fibre, const HexBatc
   LineField flux{};
   VolumeRatio range;
   for (int point = 0; point < 8; ++point) {
-    const Tensor<Pack> f = at_gauss_point(derivatives, point) * batch.point[point].inverse_jacobian;
-    const Pack j = determinant(f);
+    const HexBatch::Point& reference = batch.point[point];
+    const Tensor<Pack> d = at_gauss_point(derivatives, point), cofactor_d = cofactor(d);
+    const Tensor<Pack> dm = d * metric_of(reference);
+    const Pack j = dot(row(d, 0), row(cofactor_d, 0)) * reference.per_weight;
     range.extend(j);
-    Tensor<Pack> stress = law.stress(f);
-    if (fibre.tension != 0.0) stress = stress + active_stress(fibre, f, j);
-    accumulate(flux, point, stress, batch.point[point]);
+    const IsotropicStress<Pack> p = law.response(dot(d, dm), j);
+    Tensor<Pack> h = (reference.weight * p.linear) * dm + p.cofactor * cofactor_d;
+    if constexpr (Law::has_cubic_stress) h += (reference.weight * p.cubic) * (dm * (transposed(d) * dm));
+    if (fibre.tension != 0.0) {
+      const Tensor<Pack>& a = reference.inverse_jacobian;
+      h += reference.weight * (active_stress(fibre, d * a, j) * transposed(a));
+    }
+    accumulate(flux, point, h);
   }
   forces_of_flux(flux, forces);
   return range;

@@ -6,6 +6,7 @@
 #pragma once
 
 #include "fem/elastic_moduli.hpp"
+#include "fem/isotropic_stress.hpp"
 #include "fem/simd_math.hpp"
 #include "fem/tensor.hpp"
 
@@ -29,14 +30,17 @@ struct NeoHookean {
     return 0.5 * shear * (exp(log_j * (-2.0 / 3.0)) * dot(f, f) - 3.0) + 0.5 * bulk * log_j * log_j;
   }
 
+  static constexpr bool has_cubic_stress = false;
+  template <class T>
+  IsotropicStress<T> response(const T& i1, const T& j) const {
+    const T log_j = log(j);
+    const T g = shear * exp(log_j * (-2.0 / 3.0));
+    return {g, T{}, (bulk * log_j - g * i1 * (1.0 / 3.0)) / j};
+  }
   /// First Piola-Kirchhoff stress P(F) [Pa]
   template <class T>
   Tensor<T> stress(const Tensor<T>& f) const {
-    const T j = determinant(f);
-    const T log_j = log(j);
-    const T g = shear * exp(log_j * (-2.0 / 3.0));
-    const T pressure = bulk * log_j - g * dot(f, f) * (1.0 / 3.0);
-    return g * f + (pressure / j) * cofactor(f);
+    return isotropic_stress(*this, f);
   }
 
   /// dP(F; dF) [Pa], the derivative of the stress in the direction dF.

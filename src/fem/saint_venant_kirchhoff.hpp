@@ -5,6 +5,7 @@
 #pragma once
 
 #include "fem/elastic_moduli.hpp"
+#include "fem/isotropic_stress.hpp"
 #include "fem/simd_math.hpp"
 #include "fem/tensor.hpp"
 
@@ -28,6 +29,11 @@ struct SaintVenantKirchhoff {
     return 0.5 * lambda * trace(e) * trace(e) + shear * dot(e, e);
   }
 
+  static constexpr bool has_cubic_stress = true;
+  template <class T>
+  IsotropicStress<T> response(const T& i1, const T&) const {
+    return {0.5 * lambda * (i1 - 3.0) - shear, splat<T>(shear), T{}};
+  }
   /// First Piola-Kirchhoff stress P(F) [Pa]
   template <class T>
   Tensor<T> stress(const Tensor<T>& f) const {

@@ -62,7 +62,7 @@ struct Structure::Data {
   void compute_forces(int substep);
   void compute_contact();
   double stable_step() const;
-  int substeps_for(double dt, double time) const;
+  int substeps_for(double dt, double time);
   void stop_rigidly_held();
   /// A share of the loads of `time` [s] acts from now on.
   void set_time(double time, double share = 1.0);

@@ -162,11 +162,14 @@ void Structure::Data::compute_contact() {
   contact->compute_forces(x, v);
 }
 
-int Structure::Data::substeps_for(double dt, double time) const {
-  // Far beyond any useful count: an element that asks for more is crushed or inverted between its Gauss points.
+int Structure::Data::substeps_for(double dt, double time) {
+  // Far beyond any useful count: an element that asks for more is crushed or inverted, be it between its Gauss points.
   constexpr double most = 20'000;
   const double count = std::ceil(dt / stable_step());
   if (count <= most) return std::max(1, static_cast<int>(count));
+  elements.forget_out_of_bounds();
+  elements.compute_forces(x);
+  if (elements.out_of_bounds()) report_divergence(time);
   const int node = elements.stiffest_node();
   throw Diverged(
       fmt::format("the structure is torn or inverted next to node {} near ({:.4g}, {:.4g}, {:.4g}) m at t = {:.6g} s: "
