@@ -34,6 +34,7 @@ class BatchedGroup final : public ElementGroup {
       prepare_geometry(batches_[b], kind, reference);
     }
     expect_volume(reference);
+    keep_volumes();
   }
 
   const double* force_on(int element, int local_node) const override {

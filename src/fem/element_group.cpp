@@ -32,6 +32,10 @@ bool ElementGroup::compute_forces(int batch, std::span<const Vec3> x) {
   return inside;
 }
 
+void ElementGroup::keep_volumes() {
+  for (int e = 0; e < count(); ++e) volume_.push_back(volume_of(e));
+}
+
 void ElementGroup::bound_frequencies(int batch, std::span<const Vec3> x) {
   const std::array<Pack, 3> stiffness = stiffness_of(batch, x);
   const int first = batch * lanes;
@@ -45,14 +49,14 @@ void ElementGroup::bound_frequencies(int batch, std::span<const Vec3> x) {
 
 void ElementGroup::add_stiffness(std::span<double> nodal_stiffness) const {
   for (int e = 0; e < count(); ++e) {
-    const double share = frequency_bound_[e] * volume_of(e) / nodes_per_element();
+    const double share = frequency_bound_[e] * volume_[e] / nodes_per_element();
     for (const int node : nodes_of(e)) nodal_stiffness[node] += share;
   }
 }
 
 void ElementGroup::add_masses(std::span<double> nodal_mass) const {
   for (int e = 0; e < count(); ++e) {
-    for (const int node : nodes_of(e)) nodal_mass[node] += region_.density * volume_of(e) / nodes_per_element();
+    for (const int node : nodes_of(e)) nodal_mass[node] += region_.density * volume_[e] / nodes_per_element();
   }
 }
 

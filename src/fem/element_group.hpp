@@ -85,6 +85,8 @@ class ElementGroup : public ForceGroup {
   ElementGroup(const GroupDescription& description, std::string family, int nodes_per_element, std::vector<int> nodes,
                std::vector<int> numbers);
   const ActiveFibre& fibre() const { return fibre_; }
+  /// To be called once, when volume_of() is known.
+  void keep_volumes();
 
  private:
   virtual VolumeRatio forces_of(int batch, std::span<const Vec3> x) = 0;
@@ -100,6 +102,7 @@ class ElementGroup : public ForceGroup {
   std::vector<int> number_;
   std::vector<VolumeRatio> ratios_;
   std::vector<std::array<double, 3>> lightness_;
+  std::vector<double> volume_;  // [m^3]
   std::vector<double> frequency_bound_;  ///< [Pa/m^2]
 };
 
