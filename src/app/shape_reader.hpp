@@ -7,7 +7,6 @@
 
 namespace drogue::app {
 
-
 /// Throws InputError.
 geometry::Shape read_shape(Section section);
 

@@ -102,7 +102,7 @@ class ElementGroup : public ForceGroup {
   std::vector<int> number_;
   std::vector<VolumeRatio> ratios_;
   std::vector<std::array<double, 3>> lightness_;
-  std::vector<double> volume_;  // [m^3]
+  std::vector<double> volume_;           // [m^3]
   std::vector<double> frequency_bound_;  ///< [Pa/m^2]
 };
 
