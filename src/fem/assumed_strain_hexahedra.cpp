@@ -224,7 +224,7 @@ VolumeRatio volume_ratio(const Law& law, const AssumedStrainBatch& batch, std::s
 /// That of the trilinear hexahedron: of the modes that a plate or a bar shares with it the energy is not higher, and
 /// linear fields, which have the highest frequencies, are the same.
 template <class Law>
-std::array<Pack, 3> directional_stiffness(const Law& law, const AssumedStrainBatch& batch, std::span<const Vec3> x) {
+Tensor<Pack> directional_stiffness(const Law& law, const AssumedStrainBatch& batch, std::span<const Vec3> x) {
   return hexahedron_stiffness(law, batch.node, batch.inverse_jacobian, x);
 }
 

@@ -64,7 +64,7 @@ class BatchedGroup final : public ElementGroup {
     return volume_ratio(law_, batches_[batch], x);
   }
   Pack energy_of(int batch, std::span<const Vec3> x) const override { return energy(law_, batches_[batch], x); }
-  std::array<Pack, 3> stiffness_of(int batch, std::span<const Vec3> x) const override {
+  Tensor<Pack> stiffness_of(int batch, std::span<const Vec3> x) const override {
     return directional_stiffness(law_, batches_[batch], x);
   }
 

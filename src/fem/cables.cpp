@@ -93,11 +93,11 @@ void lump_volumes(const CableBatch& batch, int lane, std::span<double> volume) {
 
 /// In the parent interval [-1, 1] the derivative is 2 / L; along the cable its modulus resists, also of a slack one,
 /// which may be taut in a moment, and across it the tension.
-std::array<Pack, 3> directional_stiffness(const LinearCable& law, const CableBatch& batch, std::span<const Vec3> x) {
+Tensor<Pack> directional_stiffness(const LinearCable& law, const CableBatch& batch, std::span<const Vec3> x) {
   const Line line(batch, x);
   const Pack across = law.stress(line.stretch) / line.divisor();
   const Pack stiffest = larger(across, splat<Pack>(law.young));
-  return {4.0 * batch.inverse_length * batch.inverse_length * stiffest, Pack{}, Pack{}};
+  return directional_stiffness_of({4.0 * batch.inverse_length * batch.inverse_length * stiffest, Pack{}, Pack{}});
 }
 
 }  // namespace

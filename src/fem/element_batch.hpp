@@ -7,9 +7,10 @@
 //   energy             of each element [J]
 //   volume_ratio       its range over the Gauss points
 //   lump_volumes       reference volume on the nodes [m^3]
-//   directional_stiffness   largest eigenvalue [Pa/m^2] of the acoustic tensor at the centre for each of up to three
-//                      directions, from above, such that their sum bounds density times squared frequency of an element
-//                      with its mass lumped equally on its nodes
+//   directional_stiffness   norms [Pa/m^2], from above, of the blocks of the acoustic tensor at the centre between up
+//   to
+//                      three directions: a symmetric matrix whose largest eigenvalue bounds density times squared
+//                      frequency of an element with its mass lumped equally on its nodes
 #pragma once
 
 #include <array>
@@ -19,8 +20,24 @@
 
 #include "core/types.hpp"
 #include "fem/simd_math.hpp"
+#include "fem/tensor.hpp"
 
 namespace drogue::fem {
+
+/// Upper bound of the largest eigenvalue of a symmetric tensor: mean + 2 sqrt(p), p = |q - mean|^2 / 6. Exact if the
+/// two others are equal, as those of the acoustic tensor of an isotropic solid are; at most 4/3 of it for a positive
+/// one.
+inline Pack largest_eigenvalue_bound(const Tensor<Pack>& q) {
+  const Pack mean = (1.0 / 3.0) * trace(q);
+  const Pack deviation = larger(dot(q, q) - 3.0 * mean * mean, Pack{});
+  return mean + 2.0 * square_root(deviation * (1.0 / 6.0));
+}
+
+/// Directional stiffness of which only the blocks on the diagonal are known: those of a positive tensor have norms
+/// |A_IJ|^2 <= |A_II| |A_JJ|.
+inline Tensor<Pack> directional_stiffness_of(const std::array<Pack, 3>& diagonal) {
+  return tensor<Pack>([&](int i, int j) { return i == j ? diagonal[i] : square_root(diagonal[i] * diagonal[j]); });
+}
 
 /// Of N nodes, lane by lane.
 template <std::size_t N>

@@ -37,14 +37,16 @@ void ElementGroup::keep_volumes() {
 }
 
 void ElementGroup::bound_frequencies(int batch, std::span<const Vec3> x) {
-  const std::array<Pack, 3> stiffness = stiffness_of(batch, x);
-  const int first = batch * lanes;
-  for (int e = first; e < std::min(first + lanes, count()); ++e) {
-    frequency_bound_[e] = 0.0;
-    for (int direction = 0; direction < 3; ++direction) {
-      frequency_bound_[e] += lightness_[e][direction] * stiffness[direction][e - first];
-    }
+  const int first = batch * lanes, used = std::min(lanes, count() - first);
+  Pack root[3]{};  // of the lightness
+  for (int direction = 0; direction < 3; ++direction) {
+    for (int lane = 0; lane < used; ++lane) root[direction][lane] = lightness_[first + lane][direction];
+    root[direction] = square_root(root[direction]);
   }
+  const Tensor<Pack> stiffness = stiffness_of(batch, x);
+  const Pack bound =
+      largest_eigenvalue_bound(tensor<Pack>([&](int i, int j) { return root[i] * root[j] * stiffness(i, j); }));
+  for (int lane = 0; lane < used; ++lane) frequency_bound_[first + lane] = bound[lane];
 }
 
 void ElementGroup::add_stiffness(std::span<double> nodal_stiffness) const {

@@ -92,7 +92,7 @@ class ElementGroup : public ForceGroup {
   virtual VolumeRatio forces_of(int batch, std::span<const Vec3> x) = 0;
   virtual VolumeRatio volume_ratio_of(int batch, std::span<const Vec3> x) const = 0;
   virtual Pack energy_of(int batch, std::span<const Vec3> x) const = 0;
-  virtual std::array<Pack, 3> stiffness_of(int batch, std::span<const Vec3> x) const = 0;
+  virtual Tensor<Pack> stiffness_of(int batch, std::span<const Vec3> x) const = 0;
   virtual double volume_of(int element) const = 0;  // [m^3]
 
   std::string family_;

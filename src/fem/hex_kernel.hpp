@@ -77,15 +77,6 @@ inline Tensor<Pack> at_centre(const LineField& edges) {
   });
 }
 
-/// Upper bound of the largest eigenvalue of a symmetric tensor: mean + 2 sqrt(p), p = |q - mean|^2 / 6. Exact if the
-/// two others are equal, as those of the acoustic tensor of an isotropic solid are; at most 4/3 of it for a positive
-/// one.
-inline Pack largest_eigenvalue_bound(const Tensor<Pack>& q) {
-  const Pack mean = (1.0 / 3.0) * trace(q);
-  const Pack deviation = larger(dot(q, q) - 3.0 * mean * mean, Pack{});
-  return mean + 2.0 * square_root(deviation * (1.0 / 6.0));
-}
-
 /// J T F f0 f0^T
 inline Tensor<Pack> active_stress(const ActiveFibre& fibre, const Tensor<Pack>& f, const Pack& j) {
   const Vec3& f0 = fibre.direction;
@@ -111,23 +102,29 @@ void lump_hexahedron(const Batch& batch, int lane, std::span<double> volume) {
   }
 }
 
-/// For the parent directions I: Q(N_I), N_I = A^T e_I with `a` = A at the centre. Exact for a bar, and by the
-/// Cauchy-Schwarz inequality never too low for a parallelepiped under uniform strain.
+/// Between the parent directions I and J: norm of dP(F; e_k N_I^T) N_J over k, N_I = A^T e_I with `a` = A at the
+/// centre. Never too low for a parallelepiped under uniform strain.
 template <class Law>
-std::array<Pack, 3> hexahedron_stiffness(const Law& law, const BatchNodes<8>& node, const Tensor<Pack>& a,
-                                         std::span<const Vec3> x) {
+Tensor<Pack> hexahedron_stiffness(const Law& law, const BatchNodes<8>& node, const Tensor<Pack>& a,
+                                  std::span<const Vec3> x) {
   const Tensor<Pack> f = at_centre(edge_derivatives(node, x)) * a;
-  std::array<Pack, 3> stiffness;
-  for (int direction = 0; direction < 3; ++direction) {
-    Tensor<Pack> acoustic;
+  Tensor<Pack> block[3][3];  // [I][J >= I](j, k)
+  for (int i = 0; i < 3; ++i) {
     for (int k = 0; k < 3; ++k) {
-      const Tensor<Pack> df = tensor<Pack>([&](int i, int j) { return i == k ? a(direction, j) : Pack{}; });
-      const Tensor<Pack> dp = law.tangent(f, df);
-      for (int j = 0; j < 3; ++j) {
-        acoustic(j, k) = dp(j, 0) * a(direction, 0) + dp(j, 1) * a(direction, 1) + dp(j, 2) * a(direction, 2);
+      const Tensor<Pack> dp = law.tangent(f, tensor<Pack>([&](int m, int n) { return m == k ? a(i, n) : Pack{}; }));
+      for (int j = i; j < 3; ++j) {
+        const Vector<Pack> of_k = dp * row(a, j);
+        for (int m = 0; m < 3; ++m) block[i][j](m, k) = of_k(m);
       }
     }
-    stiffness[direction] = larger(largest_eigenvalue_bound(acoustic), Pack{});
+  }
+  Tensor<Pack> stiffness;
+  for (int i = 0; i < 3; ++i) stiffness(i, i) = larger(largest_eigenvalue_bound(block[i][i]), Pack{});
+  for (int i = 0; i < 3; ++i) {
+    for (int j = i + 1; j < 3; ++j) {
+      const Pack squared_norm = dot(block[i][j], block[i][j]), if_positive = stiffness(i, i) * stiffness(j, j);
+      stiffness(i, j) = stiffness(j, i) = square_root(squared_norm < if_positive ? squared_norm : if_positive);
+    }
   }
   return stiffness;
 }

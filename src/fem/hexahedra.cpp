@@ -172,7 +172,7 @@ VolumeRatio volume_ratio(const Law&, const HexBatch& batch, std::span<const Vec3
 }
 
 template <class Law>
-std::array<Pack, 3> directional_stiffness(const Law& law, const HexBatch& batch, std::span<const Vec3> x) {
+Tensor<Pack> directional_stiffness(const Law& law, const HexBatch& batch, std::span<const Vec3> x) {
   return hexahedron_stiffness(law, batch.node, batch.centre.inverse_jacobian, x);
 }
 

@@ -283,7 +283,7 @@ Pack largest_acoustic_eigenvalue(const Law& law, const SurfaceGradient& f, const
 
 /// At least that of the reference state: a fold bears nothing, but may be taut in a moment.
 template <class Law, std::size_t N>
-std::array<Pack, 3> directional_stiffness(const Law& law, const MembraneBatch<N>& batch, std::span<const Vec3> x) {
+Tensor<Pack> directional_stiffness(const Law& law, const MembraneBatch<N>& batch, std::span<const Vec3> x) {
   const SurfaceGradient f = deformation(Corners<N>(batch, x), SurfaceShape<N>::centre_gradient, batch.centre);
   const Pack one = splat<Pack>(1.0 + 1e-9), none{};  // just so much that a tension field is taut
   const SurfaceGradient rest{{{one, none}, {none, one}, {none, none}}};
@@ -293,7 +293,7 @@ std::array<Pack, 3> directional_stiffness(const Law& law, const MembraneBatch<N>
     stiffness[direction] =
         larger(largest_acoustic_eigenvalue(law, f, n[0], n[1]), largest_acoustic_eigenvalue(law, rest, n[0], n[1]));
   }
-  return stiffness;
+  return directional_stiffness_of(stiffness);
 }
 
 template <std::size_t N>
