@@ -30,13 +30,13 @@ void Interpolation<S>::take(const BlockSum& block_sum, const MomentField<S>& fie
   using Layout = RowLayout<S>;
   const auto& [block, sum, lines] = block_sum;
   if (is_leaf(block_sum)) {
-    const auto sums = std::make_unique<LayerSums<S>>();
+    const auto sums = std::make_unique_for_overwrite<LayerSums<S>>();
     sums->request(sum, plane);
     return sums->sum(field.block(block));
   }
   for (int i = lines.begin; i < lines.end; ++i) {
     std::array<const std::byte*, interpolation_taps> line;
-    for (int k = 0; k < sum.taps; ++k) line[k] = line_of(field, block, sum.normal, sum.first + k, i);
+    for (int k = 0; k < sum.taps; ++k) line[k] = field.line(block, sum.normal, sum.first + k, i);
     for (int m = 0; m < moments; ++m) {
       Vec<Real> v{};
       for (int k = 0; k < sum.taps; ++k) v += static_cast<Real>(sum.weight[k]) * Layout::load_scaled(line[k], m);
@@ -108,7 +108,7 @@ template <class S>
   const IndexVec<Real> wanted = (lane_numbers<Real> >= job.cells.begin) & (lane_numbers<Real> < job.cells.end);
   const bool whole = job.cells.begin == 0 && job.cells.end == n;
   for (int i = job.lines.begin; i < job.lines.end; ++i) {
-    std::byte* to = line_of(fine, job.target, job.normal, job.layer, i);
+    std::byte* to = fine.line(job.target, job.normal, job.layer, i);
     const auto* from = combined + across.start[i] - first;
 #pragma GCC unroll 10
     for (int m = 0; m < moments; ++m) {

@@ -4,7 +4,8 @@
 // face is more expensive than another.
 #pragma once
 
-#include <cstddef>
+#include <algorithm>
+#include <array>
 
 #include "lbm/moments.hpp"
 #include "lbm/stencils.hpp"
@@ -19,16 +20,6 @@ constexpr int along_axis(int normal) { return normal == 0 ? 1 : 0; }
 struct Range {
   int begin, end;
 };
-
-template <class S>
-const std::byte* line_of(const MomentField<S>& field, int id, int normal, int layer, int across) {
-  if (normal == 0) return field.column(id, layer, across);
-  return normal == 1 ? field.row(id, layer, across) : field.row(id, across, layer);
-}
-template <class S>
-std::byte* line_of(MomentField<S>& field, int id, int normal, int layer, int across) {
-  return const_cast<std::byte*>(line_of(std::as_const(field), id, normal, layer, across));
-}
 
 /// Copies cells `along` of a line that has been written to where else they are kept: the ends of a row to columns, a
 /// column to rows.

@@ -240,6 +240,15 @@ class MomentField {
     return first + (side * amr::block_size + z) * Layout::bytes;
   }
 
+  /// A line of 16 cells in the layer `layer` along `normal` (0 x, 1 y, 2 z): a column next to an x face, else a row.
+  std::byte* line(int id, int normal, int layer, int across) {
+    return const_cast<std::byte*>(std::as_const(*this).line(id, normal, layer, across));
+  }
+  const std::byte* line(int id, int normal, int layer, int across) const {
+    if (normal == 0) return column(id, layer, across);
+    return normal == 1 ? row(id, layer, across) : row(id, across, layer);
+  }
+
   /// Adds to density or velocity of one cell of a leaf; returns by how much it changed, which rounding decides.
   double add(int id, const Index3& cell, int m, Real value) {
     changed_[id] = true;
@@ -257,17 +266,17 @@ class MomentField {
     changed_[id] = true;
     const int axis = face / 2, layer = face & 1 ? amr::block_size - 1 : 0;
     const int y = axis == 1 ? layer : r, z = axis == 2 ? layer : r;
-    Real* line = Layout::macro(axis == 0 ? column(id, layer, z) : row(id, y, z), m);
+    Real* cell = Layout::macro(line(id, axis, layer, r), m);
     double sum = 0.0;
     for (int i = 0; i < lanes; ++i) {
-      const Real before = line[i];
-      line[i] += value;
-      sum += double{line[i]} - double{before};
+      const Real before = cell[i];
+      cell[i] += value;
+      sum += double{cell[i]} - double{before};
     }
     if (axis == 0)
-      for (int i = 0; i < lanes; ++i) Layout::macro(row(id, i, z), m)[layer] = line[i];
+      for (int i = 0; i < lanes; ++i) Layout::macro(row(id, i, z), m)[layer] = cell[i];
     else
-      for_each_column(id, [&](int x) { Layout::macro(column(id, x, z), m)[y] = line[x]; });
+      for_each_column(id, [&](int x) { Layout::macro(column(id, x, z), m)[y] = cell[x]; });
     return sum;
   }
 

@@ -13,25 +13,13 @@ namespace {
 
 constexpr int n = amr::block_size;
 
-/// The lines of cells of a block, no boundary block, at one of its faces: columns at x faces, rows at the others.
+/// The lines of cells of a block, no boundary block, at one of its faces.
 template <class S>
-class Layer {
- public:
-  using Layout = RowLayout<S>;
+struct Layer {
+  const MomentField<S>& field;
+  int block, face;
 
-  Layer(const MomentField<S>& field, int block, int face) {
-    const int axis = face / 2, depth = face & 1 ? n - 1 : 0;
-    first_ = axis == 0   ? field.column(block, depth, 0)
-             : axis == 1 ? field.row(block, depth, 0)
-                         : field.row(block, 0, depth);
-    stride_ = axis == 1 ? n * Layout::bytes : Layout::bytes;
-  }
-
-  auto line(int m, int r) const { return Layout::load(first_ + r * stride_, m); }
-
- private:
-  const std::byte* first_;
-  std::size_t stride_;
+  auto line(int m, int r) const { return RowLayout<S>::load(field.line(block, face / 2, face & 1 ? n - 1 : 0, r), m); }
 };
 
 constexpr Moment stress(int a, int b) {
@@ -83,7 +71,7 @@ Crossing<S>::Crossing(const amr::Forest& forest, bool third_order, InterfaceSide
 template <class S>
 auto Crossing<S>::through(const MomentField<S>& field, const InterfaceFace& face, Real keep) const -> Vec<Real> {
   const int axis = face.face / 2, sign = face.face & 1 ? 1 : -1;
-  const Layer<S> inner(field, face.inner, face.face), outer(field, face.outer, face.face ^ 1);
+  const Layer<S> inner{field, face.inner, face.face}, outer{field, face.outer, face.face ^ 1};
   const auto quarter_shear = [&](int tangent, int r) {
     const auto of = [&](const Layer<S>& l) {
       return shear<Vec<Real>>(axis, tangent, keep, [&](int m) { return l.line(m, r); });

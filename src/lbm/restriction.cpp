@@ -11,12 +11,23 @@ constexpr int n = amr::block_size, half = n / 2, taps = restriction_taps;
 }  // namespace
 
 template <class S>
+Restriction<S>::Restriction(const amr::Forest& forest) : forest_(forest), axis_(restriction_axis()), stencil_(axis_) {
+  const IndexVec<Real> second_layer = lane_numbers<Real> >= half ? IndexVec<Real>{} + n : IndexVec<Real>{};
+  for (int k = 0; k < taps; ++k) {
+    for (int i = 0; i < n; ++i) {
+      lane_[k][i] = stencil_.start[i % half] + k;
+      lane_weight_[k][i] = stencil_.weight[i % half][k];
+    }
+    lane_[k] += second_layer;
+  }
+}
+
+template <class S>
 void Restriction<S>::request(const std::vector<RimFace>& faces, LayerSums<S>& sums) {
-  static const Axis axis = restriction_axis();
   for (const RimFace& rim : faces)
     for (int r = 0; r < layers; ++r) {
       const int output = rim.face & 1 ? half - layers + r : r;  // of one child
-      sums.request({rim.face / 2, axis.start[output], taps, axis.weight[output]}, sum_[rim.face][r]);
+      sums.request({rim.face / 2, axis_.start[output], taps, axis_.weight[output]}, sum_[rim.face][r]);
     }
 }
 
@@ -32,20 +43,10 @@ void Restriction<S>::write_face(int leaf_id, const RimFace& rim, const Conversio
   const Range cells{along_half * half, along_half * half + half};
   const auto& sum = sum_[rim.face];
   const MomentConversion<Real> convert(conversion);
-  const IndexVec<Real> second_layer = lane_numbers<Real> >= half ? IndexVec<Real>{} + n : IndexVec<Real>{};
-  std::array<IndexVec<Real>, taps> lane;
-  std::array<V, taps> lane_weight;
-  for (int k = 0; k < taps; ++k) {
-    for (int i = 0; i < n; ++i) {
-      lane[k][i] = stencil_.start[i % half] + k;
-      lane_weight[k][i] = stencil_.weight[i % half][k];
-    }
-    lane[k] += second_layer;
-  }
   for (int i = 0; i < half; ++i) {
     const int line = across_half * half + i;
     std::array<std::byte*, layers> to;
-    for (int r = 0; r < layers; ++r) to[r] = line_of(coarse, leaf.parent, normal, (side ? n - layers : 0) + r, line);
+    for (int r = 0; r < layers; ++r) to[r] = coarse.line(leaf.parent, normal, (side ? n - layers : 0) + r, line);
     const int first = stencil_.start[i];
 #pragma GCC unroll 10
     for (int m = 0; m < moments; ++m) {
@@ -54,8 +55,8 @@ void Restriction<S>::write_face(int leaf_id, const RimFace& rim, const Conversio
         across[r] = stencil_.weight[i][0] * sum[r][first][m];
         for (int k = 1; k < taps; ++k) across[r] += stencil_.weight[i][k] * sum[r][first + k][m];
       }
-      V v = lane_weight[0] * pick<Real>(across[0], across[1], lane[0]);
-      for (int k = 1; k < taps; ++k) v += lane_weight[k] * pick<Real>(across[0], across[1], lane[k]);
+      V v = lane_weight_[0] * pick<Real>(across[0], across[1], lane_[0]);
+      for (int k = 1; k < taps; ++k) v += lane_weight_[k] * pick<Real>(across[0], across[1], lane_[k]);
       v = convert.factor[m] * v + convert.shift[m];
       Layout::store_half_scaled(to[0], m, along_half, low_half<Real>(v));
       Layout::store_half_scaled(to[1], m, along_half, high_half<Real>(v));

@@ -25,7 +25,7 @@ using RestrictionPlan = ByLeaf<RimFace>;
 template <class S>
 class Restriction {
  public:
-  explicit Restriction(const amr::Forest& forest) : forest_(forest), stencil_(restriction_axis()) {}
+  explicit Restriction(const amr::Forest& forest);
 
   /// Asks for the sums along the normals of `faces`.
   void request(const std::vector<RimFace>& faces, LayerSums<S>& sums);
@@ -39,7 +39,11 @@ class Restriction {
   void write_face(int leaf, const RimFace& rim, const Conversion& conversion, MomentField<S>& coarse) const;
 
   const amr::Forest& forest_;
+  const Axis axis_;
   const Stencil<Real> stencil_;
+  // of both layers along themselves at once, eight cells of each
+  std::array<IndexVec<Real>, restriction_taps> lane_;
+  std::array<Vec<Real>, restriction_taps> lane_weight_;
   std::array<std::array<Plane<S>, layers>, 6> sum_;  // by face
 };
 

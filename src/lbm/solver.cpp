@@ -31,6 +31,12 @@ double eddy_factor(const fluid::Specification& s) {
   return linear ? s.eddy_constant : s.eddy_constant * s.eddy_constant;
 }
 
+template <class S>
+std::array<MomentField<S>, 2> fields_for(const amr::Forest& forest) {
+  const std::vector<bool> deep = deep_blocks(forest);
+  return {MomentField<S>(forest.size(), deep), MomentField<S>(forest.size(), deep)};
+}
+
 }  // namespace
 
 template <class S>
@@ -38,8 +44,7 @@ BasicSolver<S>::BasicSolver(amr::Forest forest, fluid::Specification specificati
     : forest_(std::move(forest)),
       specification_(std::move(specification)),
       units_(units_of(specification_)),
-      field_{MomentField<S>(forest_.size(), deep_blocks(forest_)),
-             MomentField<S>(forest_.size(), deep_blocks(forest_))},
+      field_(fields_for<S>(forest_)),
       fill_boundary_(forest_, specification_, units_),
       forced_(is_forced(specification_)),
       force_(forest_),
@@ -107,24 +112,25 @@ void BasicSolver<S>::stream_and_collide(int level) {
   const auto leaves = forest_.range(level, amr::Kind::leaf);
   float max_speed_squared = 0.0f;
   bool diverged = false;
+  const bool restricts = level > 0 && !forced_;  // a body force has yet to change all leaves: restrict_changed()
 #pragma omp parallel reduction(max : max_speed_squared) reduction(|| : diverged)
   {
     const auto restriction = std::make_unique<Restriction<S>>(forest_);
-    const auto sums = std::make_unique<LayerSums<S>>();
+    const auto sums = std::make_unique_for_overwrite<LayerSums<S>>();
 #pragma omp for schedule(static)
     for (int id = leaves.begin; id < leaves.end; ++id) {
       BlockNeighbourhood<S> blocks = neighbourhood(id, l.now);
       const BlockNeighbourhood<S> next = neighbourhood(std::min(id + 1, leaves.end - 1), l.now);
       blocks.next = &next;
       sums->begin();
-      if (level > 0) restriction->request((*l.to_parents)[id], *sums);
-      if (level < forest_.finest()) interpolation_[level].request(id, *sums);
+      if (restricts) restriction->request((*l.to_parents)[id], *sums);
+      if (level < forest_.finest() && !forced_) interpolation_[level].request(id, *sums);
       if (!sums->empty()) blocks.sums = sums.get();
       if (level > 0) reflux_[level - 1].of_fine().count(id, field_[l.now], l.relaxation);
       if (level < forest_.finest()) reflux_[level].of_coarse().count(id, field_[l.now], l.relaxation);
       const BlockRecord record = update_(blocks, l.relaxation);
       sums->finish();
-      if (level > 0)
+      if (restricts)
         restriction->write(id, (*l.to_parents)[id], conversion(level, level - 1), field_[1 - levels_[level - 1].now]);
       field_[1 - l.now].forget_changes(id);
       max_speed_squared = std::max(max_speed_squared, record.max_speed_squared);
@@ -182,15 +188,20 @@ void BasicSolver<S>::restrict_changed(int level, MomentField<S>& coarse) {
   MomentField<S>& fine = field_[levels_[level].now];
   const auto leaves = forest_.range(level, amr::Kind::leaf);
   const RestrictionPlan& plan = *levels_[level].to_parents;
+  std::vector<int> changed;
+  for (int id = leaves.begin; id < leaves.end; ++id) {
+    if (fine.changed(id) && !plan[id].empty()) changed.push_back(id);
+    fine.forget_changes(id);
+  }
+  if (changed.empty()) return;
+  const int count = static_cast<int>(changed.size());
 #pragma omp parallel
   {
     const auto restriction = std::make_unique<Restriction<S>>(forest_);
-    const auto sums = std::make_unique<LayerSums<S>>();
+    const auto sums = std::make_unique_for_overwrite<LayerSums<S>>();
 #pragma omp for schedule(dynamic, 4)
-    for (int id = leaves.begin; id < leaves.end; ++id) {
-      if (!fine.changed(id)) continue;
-      fine.forget_changes(id);
-      if (plan[id].empty()) continue;
+    for (int i = 0; i < count; ++i) {
+      const int id = changed[i];
       sums->begin();
       restriction->request(plan[id], *sums);
       sums->sum(fine.block(id));
