@@ -37,7 +37,7 @@ struct SaintVenantKirchhoff {
   /// First Piola-Kirchhoff stress P(F) [Pa]
   template <class T>
   Tensor<T> stress(const Tensor<T>& f) const {
-    return f * second_piola(green_lagrange(f));
+    return isotropic_stress(*this, f);
   }
 
   /// dP(F; dF) [Pa], the derivative of the stress in the direction dF.

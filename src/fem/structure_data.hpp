@@ -106,6 +106,7 @@ struct Structure::Data {
   void expect_unheld_parts_unloaded();
   [[noreturn]] void report_imbalance(double time, double residual, double tolerance);
   std::string describe(int node) const;
+  std::string describe(const Newton::FreeMotion& motion) const;
   bool needs_explicit_motion() const;
   double cost_of_forces() const;
   double cost_of_newton();

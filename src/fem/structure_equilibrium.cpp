@@ -125,8 +125,7 @@ int Structure::Data::balance_by_newton(double time, const EquilibriumOptions& as
   }
   reaction = forces(x).reaction;
   if (const auto motion = newton().find_free_motion(x, added)) {
-    free_motion = fmt::format("nothing resists a motion of {} along ({:.2g}, {:.2g}, {:.2g})", describe(motion->node),
-                              motion->direction.x(), motion->direction.y(), motion->direction.z());
+    free_motion = describe(*motion);
   }
   return iterations;
 }
@@ -134,6 +133,11 @@ int Structure::Data::balance_by_newton(double time, const EquilibriumOptions& as
 std::string Structure::Data::describe(int node) const {
   const Vec3& p = mesh.nodes[node];
   return fmt::format("node {} at ({:g}, {:g}, {:g}) m", node, p.x(), p.y(), p.z());
+}
+
+std::string Structure::Data::describe(const Newton::FreeMotion& motion) const {
+  return fmt::format("nothing resists a motion of {} along ({:.2g}, {:.2g}, {:.2g})", describe(motion.node),
+                     motion.direction.x(), motion.direction.y(), motion.direction.z());
 }
 
 /// No equilibrium exists if loads push a part along an axis on which none of its nodes is held.
@@ -160,8 +164,7 @@ void Structure::Data::expect_unheld_parts_unloaded() {
 void Structure::Data::report_imbalance(double time, double residual, double tolerance) {
   std::string cause = "; a mechanism, or motion that nothing holds";
   if (const auto motion = newton().find_free_motion(x, tethers())) {
-    cause = fmt::format("; nothing resists a motion of {} along ({:.2g}, {:.2g}, {:.2g})", describe(motion->node),
-                        motion->direction.x(), motion->direction.y(), motion->direction.z());
+    cause = "; " + describe(*motion);
   }
   throw Diverged(
       fmt::format("no equilibrium of the structure was found at t = {:.6g} s: forces of {:.3g} of the loads and "
