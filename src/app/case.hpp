@@ -13,6 +13,7 @@
 
 #include "amr/forest.hpp"
 #include "core/types.hpp"
+#include "fem/contact.hpp"
 #include "fem/mesh_shapes.hpp"
 #include "fem/structure.hpp"
 #include "fluid/specification.hpp"
@@ -95,7 +96,6 @@ struct ElasticBody {
   Vec3 gravity = Vec3::Zero();     ///< [m/s^2]
   double damping = 0.0;            ///< [1/s]
   double stiffness_damping = 0.0;  ///< [s]
-  std::optional<fem::ContactOptions> contact;
   fem::StructureOptions structure;
   std::vector<Probe> probes;
   fsi::CouplingOptions coupling;
@@ -210,7 +210,8 @@ struct Case {
   double finest = 0.0;  ///< cell edge [m]
   std::vector<Region> regions;
   std::vector<Body> bodies;
-  double end = 0.0;  ///< [s]
+  std::optional<fem::ContactOptions> contact;  ///< of the elastic bodies
+  double end = 0.0;                            ///< [s]
   StructureSolver structure;
   Measure measure;
   Output output;

@@ -144,11 +144,11 @@ void check_fluid(const Case& c) {
 }
 
 void check_elastic(const Case& c, const std::string& key, const ElasticBody& body) {
-  if (body.contact && c.structure.at_rest) {
-    fail(c, key + ".contact", "needs a structure that moves, but structure.solver asks for equilibrium");
+  if (c.contact && body.coupling.scheme == fsi::Scheme::peskin) {
+    fail(c, key + ".coupling.scheme", "= \"peskin\", in which the fluid alone moves the body, knows no contact");
   }
-  if (body.contact && body.coupling.scheme == fsi::Scheme::peskin) {
-    fail(c, key + ".contact", "needs coupling.scheme = \"added_mass\"; in \"peskin\" the fluid alone moves the body");
+  if (c.contact && body.structure.integrator == fem::Integrator::implicit_scheme) {
+    fail(c, key + ".integrator", "= \"implicit\" knows no contact; expected \"explicit\"");
   }
   const auto [low, high] = body.structure.volume_ratio;
   if (!(low < 1.0 && high > 1.0)) {
@@ -193,6 +193,15 @@ void check_bodies(const Case& c) {
     if (const auto* elastic = std::get_if<ElasticBody>(&body.kind)) check_elastic(c, key, *elastic);
     if (const auto* rigid = std::get_if<RigidBody>(&body.kind)) check_rigid(c, key, *rigid);
   }
+}
+
+void check_contact(const Case& c) {
+  if (!c.contact) return;
+  if (c.structure.at_rest) {
+    fail(c, "contact",
+         "needs structures that move, but structure.solver asks for equilibrium; expected \"motion\", with damping");
+  }
+  if (std::ranges::none_of(c.bodies, is_elastic)) fail(c, "contact", "is of elastic bodies, but there are none");
 }
 
 void check_profile(const Case& c, const std::string& key, const Profile& profile) {
@@ -269,6 +278,7 @@ void check_case(const Case& c) {
     fail(c, "fluid.solver", "= \"none\" leaves nothing to simulate; expected a [[body]]");
   }
   check_bodies(c);
+  check_contact(c);
   check_measure(c);
   check_results(c);
 }

@@ -196,6 +196,22 @@ void read_grid(Section grid, Case& c) {
   });
 }
 
+fem::ContactOptions read_contact(Section section) {
+  fem::ContactOptions contact;
+  contact.gap =
+      section.get<double>("gap", {.unit = "m",
+                                  .doc = "within which surfaces push each other apart; no less than half an element",
+                                  .range = positive});
+  contact.stiffness = section.get<double>(
+      "stiffness", {.doc = "squared frequency of two points in contact, over the largest of the elements",
+                    .fallback = contact.stiffness,
+                    .range = {.min = 0.0, .max = 1.0, .open = true}});
+  contact.damping = section.get<double>(
+      "damping",
+      {.doc = "of that motion, over the critical one", .fallback = contact.damping, .range = {.min = 0.0, .max = 1.0}});
+  return contact;
+}
+
 StructureSolver read_structure_solver(Section section, double end) {
   StructureSolver solver;
   const Choices<std::optional<fem::Equilibrium>> solvers{{"motion", std::nullopt},
@@ -286,6 +302,10 @@ Case read_all(const Document& document, Record& record) {
   }
   root.each("body", "a body, in the flow if there is one",
             [&](Section& body) { c.bodies.push_back(read_body(body, c)); });
+  if (root.has("contact") || root.describing()) {
+    c.contact =
+        read_contact(root.section("contact", "of the elastic bodies' surfaces, with each other and themselves"));
+  }
   Section time = root.section("time", "the run");
   c.end = time.get<double>("end", {.unit = "s", .doc = "the run starts at 0", .range = positive});
   if (!c.has_fluid() || root.describing()) {

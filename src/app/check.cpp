@@ -60,6 +60,7 @@ std::string check_report(const std::filesystem::path& path, const std::vector<st
   std::optional<amr::Forest> forest;
   if (c.has_fluid()) forest.emplace(make_forest(c, meshes));
   const auto bodies = make_bodies(c, meshes, forest ? &*forest : nullptr);
+  const auto touching = make_touching(c, bodies);
 
   std::string text = fmt::format("{}\n\n", c.title.empty() ? c.name : c.title);
   if (forest) text += fluid_text(c) + grid_text(c, *forest) + cost_text(c, *forest);

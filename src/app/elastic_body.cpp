@@ -40,6 +40,7 @@ fem::Region cable_region(const CableDescription& cable, const fem::Mesh& mesh) {
 fem::Model make_model(const Case& c, const Body& description, const fem::Mesh& mesh) {
   const ElasticBody& body = elastic(description);
   fem::Model model{mesh, regions_of(body, mesh), {}, body.structure};
+  if (c.contact) model.options.integrator = fem::Integrator::explicit_scheme;  // the only one that knows contact
   for (const HoldDescription& hold : body.holds) {
     model.loads.holds.push_back(hold.hold);
     model.loads.holds.back().nodes = find_nodes(c, hold_key(description), hold.nodes, mesh);
@@ -55,7 +56,6 @@ fem::Model make_model(const Case& c, const Body& description, const fem::Mesh& m
   model.loads.gravity = body.gravity;
   model.loads.damping = body.damping;
   model.loads.stiffness_damping = body.stiffness_damping;
-  model.loads.contact = body.contact;
   return model;
 }
 

@@ -31,6 +31,10 @@ class CoupledElasticBody : public CoupledBody {
   std::string solver() const override;
   std::string warning() const override { return warning_; }
 
+  fem::Structure& structure() { return structure_; }
+  /// Where there is a fluid.
+  fsi::Coupling& coupling() { return *coupling_; }
+
  private:
   const Case& case_;
   fem::Structure structure_;

@@ -263,22 +263,6 @@ Probe read_probe(Section& section) {
   return probe;
 }
 
-fem::ContactOptions read_contact(Section section) {
-  fem::ContactOptions contact;
-  contact.gap =
-      section.get<double>("gap", {.unit = "m",
-                                  .doc = "within which surfaces push each other apart; no less than half an element",
-                                  .range = positive});
-  contact.stiffness = section.get<double>(
-      "stiffness", {.doc = "squared frequency of two points in contact, over the largest of the elements",
-                    .fallback = contact.stiffness,
-                    .range = {.min = 0.0, .max = 1.0, .open = true}});
-  contact.damping = section.get<double>(
-      "damping",
-      {.doc = "of that motion, over the critical one", .fallback = contact.damping, .range = {.min = 0.0, .max = 1.0}});
-  return contact;
-}
-
 void read_loads(Section& section, ElasticBody& body, bool in_flow) {
   section.each("hold", "nodes that are held near where they start",
                [&](Section& hold) { body.holds.push_back(read_hold(hold, in_flow)); });
@@ -308,9 +292,6 @@ void read_loads(Section& section, ElasticBody& body, bool in_flow) {
                                                 .doc = "Rayleigh's, of the stiffness; shortens the sub-step",
                                                 .fallback = 0.0,
                                                 .range = not_negative});
-  if (section.describing() || section.has("contact")) {
-    body.contact = read_contact(section.section("contact", "of the body's surfaces with each other and themselves"));
-  }
 }
 
 fem::StructureOptions read_structure(Section& body) {

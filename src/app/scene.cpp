@@ -81,4 +81,15 @@ std::vector<std::unique_ptr<CoupledBody>> make_bodies(const Case& c, const Meshe
   return bodies;
 }
 
+std::unique_ptr<TouchingBodies> make_touching(const Case& c, const std::vector<std::unique_ptr<CoupledBody>>& bodies) {
+  if (!c.contact) return nullptr;
+  std::vector<CoupledElasticBody*> elastic;
+  for (const auto& body : bodies) {
+    if (auto* found = dynamic_cast<CoupledElasticBody*>(body.get())) elastic.push_back(found);
+  }
+  std::unique_ptr<TouchingBodies> touching;
+  at_key(c, "contact", [&] { touching = std::make_unique<TouchingBodies>(std::move(elastic), *c.contact); });
+  return touching;
+}
+
 }  // namespace drogue::app

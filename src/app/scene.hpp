@@ -11,6 +11,7 @@
 #include "amr/forest.hpp"
 #include "app/case.hpp"
 #include "app/coupled_body.hpp"
+#include "app/touching_bodies.hpp"
 #include "fem/mesh.hpp"
 
 namespace drogue::app {
@@ -27,5 +28,8 @@ amr::Forest make_forest(const Case& c, const Meshes& meshes);
 /// In the order of the case; `forest`, null without a fluid, outlives them. Throws InputError for a mesh or values that
 /// cannot be run.
 std::vector<std::unique_ptr<CoupledBody>> make_bodies(const Case& c, const Meshes& meshes, const amr::Forest* forest);
+
+/// All elastic ones of the `bodies`, which outlive it, if the case asks for contact; null otherwise. Throws InputError.
+std::unique_ptr<TouchingBodies> make_touching(const Case& c, const std::vector<std::unique_ptr<CoupledBody>>& bodies);
 
 }  // namespace drogue::app

@@ -6,20 +6,20 @@
 
 namespace drogue::app {
 
-/// All bodies, one after the other, and how long they take.
+/// All that moves, one after the other, and how long it takes.
 class Simulation::TimedHook : public fluid::FineStepHook {
  public:
-  explicit TimedHook(std::vector<std::unique_ptr<CoupledBody>>& bodies) : bodies_(bodies) {}
+  explicit TimedHook(const std::vector<Mover*>& movers) : movers_(movers) {}
 
   void on_fine_step(fluid::FineStep& step) override {
     const Timed timed(watch_);
-    for (auto& body : bodies_) body->on_fine_step(step);
+    for (Mover* mover : movers_) mover->on_fine_step(step);
   }
   double seconds() const { return watch_.seconds(); }
   void transfer_state(Archive& archive) { archive.transfer("time_spent", watch_); }
 
  private:
-  std::vector<std::unique_ptr<CoupledBody>>& bodies_;
+  const std::vector<Mover*>& movers_;
   Stopwatch watch_;
 };
 
@@ -27,7 +27,12 @@ Simulation::Simulation(const Case& c, const std::filesystem::path& folder) : cas
   const Meshes meshes = load_meshes(c, folder);
   if (c.has_fluid()) fluid_ = lbm::make_solver(make_forest(c, meshes), c.fluid);
   bodies_ = make_bodies(c, meshes, fluid_ ? &fluid_->forest() : nullptr);
-  hook_ = std::make_unique<TimedHook>(bodies_);
+  touching_ = make_touching(c, bodies_);
+  for (const auto& body : bodies_) {
+    if (!touching_ || is_rigid(body->description)) movers_.push_back(body.get());
+  }
+  if (touching_) movers_.push_back(touching_.get());
+  hook_ = std::make_unique<TimedHook>(movers_);
 }
 
 Simulation::~Simulation() = default;
@@ -35,10 +40,10 @@ Simulation::~Simulation() = default;
 void Simulation::step() {
   const Timed timed(stepping_);
   if (fluid_) {
-    fluid_->step(bodies_.empty() ? nullptr : hook_.get());
+    fluid_->step(movers_.empty() ? nullptr : hook_.get());
     return;
   }
-  for (auto& body : bodies_) body->step_alone(time(), time_step());
+  for (Mover* mover : movers_) mover->step_alone(time(), time_step());
   ++steps_;
 }
 
@@ -49,13 +54,14 @@ void Simulation::transfer_state(Archive& archive) {
   if (fluid_) archive.transfer("fluid", *fluid_);
   archive.transfer("steps", steps_);
   for (auto& body : bodies_) archive.transfer("body_" + body->description.name, *body);
+  if (touching_) archive.transfer("touching", *touching_);
   archive.transfer("hook", *hook_);
   archive.transfer("time_spent", stepping_);
 }
 
 double Simulation::structure_seconds() const {
   double seconds = 0.0;
-  for (const auto& body : bodies_) seconds += body->structure_seconds();
+  for (const Mover* mover : movers_) seconds += mover->structure_seconds();
   return seconds;
 }
 

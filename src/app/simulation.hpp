@@ -8,6 +8,7 @@
 
 #include "app/case.hpp"
 #include "app/coupled_body.hpp"
+#include "app/touching_bodies.hpp"
 #include "core/stopwatch.hpp"
 #include "fluid/fluid_solver.hpp"
 
@@ -41,6 +42,8 @@ class Simulation {
   const Case& case_;
   std::unique_ptr<fluid::FluidSolver> fluid_;
   std::vector<std::unique_ptr<CoupledBody>> bodies_;
+  std::unique_ptr<TouchingBodies> touching_;  // null without contact
+  std::vector<Mover*> movers_;                // each body alone or with those that it may touch
   std::unique_ptr<TimedHook> hook_;
   int steps_ = 0;  // without a fluid
   Stopwatch stepping_;

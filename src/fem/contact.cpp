@@ -28,19 +28,9 @@ const ContactOptions& checked(const ContactOptions& options) {
   return options;
 }
 
-std::vector<int> point_of_each_node(const std::vector<Point>& points, std::size_t nodes) {
-  std::vector<int> point_of(nodes);
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    point_of[points[i].a] = static_cast<int>(i);
-    if (points[i].is_pair()) point_of[points[i].b] = static_cast<int>(i);
-  }
-  return point_of;
-}
-
-/// Of membranes and solids. The two faces of a thin solid are one; those around its rim are none.
-std::vector<ContactFace> surface_of(const Mesh& mesh, const std::vector<Region>& regions,
-                                    const std::vector<int>& point_of) {
-  std::vector<ContactFace> faces;
+/// Appends the surfaces of membranes and solids; point_of[node] tells the point of a node. The two faces of a thin
+/// solid are one; those around its rim are none.
+void add_surface(std::vector<ContactFace>& faces, const ContactBody& body, const std::vector<int>& point_of) {
   std::set<std::set<int>> seen;
   const auto add = [&](const auto& nodes) {
     ContactFace face{{-1, -1, -1, -1}};
@@ -49,19 +39,18 @@ std::vector<ContactFace> surface_of(const Mesh& mesh, const std::vector<Region>&
     if (static_cast<int>(points.size()) == face.corners() && seen.insert(std::move(points)).second)
       faces.push_back(face);
   };
-  std::ranges::for_each(outer_faces(mesh), add);
-  for (const Region& region : regions) {
+  std::ranges::for_each(outer_faces(body.mesh), add);
+  for (const Region& region : body.regions) {
     if (!std::holds_alternative<Membrane>(region.kind)) continue;
-    const ElementSet set = elements_of(mesh, region);
-    for (const int e : set.quadrilaterals) add(mesh.quadrilaterals[e]);
-    for (const int e : set.triangles) add(mesh.triangles[e]);
+    const ElementSet set = elements_of(body.mesh, region);
+    for (const int e : set.quadrilaterals) add(body.mesh.quadrilaterals[e]);
+    for (const int e : set.triangles) add(body.mesh.triangles[e]);
   }
-  if (faces.empty()) throw InputError("contact needs surfaces of membranes or solids, but there are none");
-  return faces;
 }
 
-ContactGraph graph_of(const Mesh& mesh, const std::vector<int>& point_of, std::span<const Vec3> place) {
-  ContactGraph graph(place.size());
+/// Joins the points of each element.
+void join_points(ContactGraph& graph, const Mesh& mesh, const std::vector<int>& point_of,
+                 const std::vector<Vec3>& place) {
   const auto join = [&](const auto& cells) {
     for (const auto& nodes : cells) {
       for (const int a : nodes) {
@@ -75,21 +64,25 @@ ContactGraph graph_of(const Mesh& mesh, const std::vector<int>& point_of, std::s
   join(mesh.hexahedra);
   join(mesh.quadrilaterals);
   join(mesh.triangles);
-  return graph;
 }
 
-std::vector<Vec3> places_of(const std::vector<Point>& points, std::span<const Vec3> x) {
-  std::vector<Vec3> places;
-  places.reserve(points.size());
-  for (const Point& p : points) places.push_back(p.mean_of(x));
-  return places;
-}
-
-ContactSearch make_search(const Mesh& mesh, const std::vector<Region>& regions, const std::vector<Point>& points,
-                          double gap) {
-  const std::vector<int> point_of = point_of_each_node(points, mesh.nodes.size());
-  const std::vector<Vec3> places = places_of(points, mesh.nodes);
-  return {surface_of(mesh, regions, point_of), graph_of(mesh, point_of, places), places, gap};
+ContactSearch make_search(const std::vector<ContactBody>& bodies, double gap) {
+  std::vector<ContactFace> faces;
+  ContactGraph graph;
+  std::vector<Vec3> place;
+  for (const ContactBody& body : bodies) {
+    std::vector<int> point_of(body.mesh.nodes.size());
+    for (const Point& p : body.points) {
+      point_of[p.a] = static_cast<int>(place.size());
+      if (p.is_pair()) point_of[p.b] = point_of[p.a];
+      place.push_back(p.mean_of(body.mesh.nodes));
+    }
+    graph.resize(place.size());
+    add_surface(faces, body, point_of);
+    join_points(graph, body.mesh, point_of, place);
+  }
+  if (faces.empty()) throw InputError("contact needs surfaces of membranes or solids, but there are none");
+  return {std::move(faces), graph, place, gap};
 }
 
 /// Weights of the corners a, b, c that make up the point of their triangle closest to p (Ericson, Real-Time Collision
@@ -113,31 +106,49 @@ Vec3 closest_in_triangle(const Vec3& p, const Vec3& a, const Vec3& b, const Vec3
 
 }  // namespace
 
-Contact::Contact(const ContactOptions& options, const Mesh& mesh, const std::vector<Region>& regions,
-                 const std::vector<Point>& points, double squared_frequency)
-    : points_(&points),
+std::vector<Contact::Member> Contact::members_of(const std::vector<ContactBody>& bodies) {
+  std::vector<Member> members;
+  for (const ContactBody& body : bodies) {
+    for (const Point& point : body.points) members.push_back({&point, &body.x, &body.v});
+  }
+  return members;
+}
+
+Contact::Contact(const ContactOptions& options, const std::vector<ContactBody>& bodies, double squared_frequency)
+    : members_(members_of(bodies)),
+      first_{0},
       gap_(checked(options).gap),
       frequency_(std::sqrt(options.stiffness * squared_frequency)),
       damping_(options.damping),
-      search_(make_search(mesh, regions, points, gap_)),
-      force_(points.size(), Vec3::Zero()) {}
+      search_(make_search(bodies, gap_)),
+      force_(members_.size(), Vec3::Zero()) {
+  for (const ContactBody& body : bodies) first_.push_back(first_.back() + body.points.size());
+}
 
-void Contact::renew(std::span<const Vec3> x) {
-  search_.find(places_of(*points_, x));
+std::span<const Vec3> Contact::forces_on(std::size_t body) const {
+  if (touched_.empty()) return {};
+  return std::span(force_).subspan(first_[body], first_[body + 1] - first_[body]);
+}
+
+/// Finds what is near what.
+void Contact::renew() {
+  std::vector<Vec3> place;
+  place.reserve(members_.size());
+  for (const Member& member : members_) place.push_back(member.place());
+  search_.find(place);
   touch_.assign(search_.seekers().size(), Touch{});
 }
 
-Contact::Touch Contact::touch(const ContactSearch::Seeker& seeker, std::span<const Vec3> x,
-                              std::span<const Vec3> v) const {
-  const std::vector<Point>& points = *points_;
-  const Vec3 place = points[seeker.point].mean_of(x);
+Contact::Touch Contact::touch(const ContactSearch::Seeker& seeker) const {
+  const Member& point = members_[seeker.point];
+  const Vec3 place = point.place();
   Touch touch;
   Vec3 way = Vec3::Zero(), across = Vec3::Zero();
   double nearest = gap_ * gap_;
   for (int k = seeker.first; k < seeker.last; ++k) {
     const ContactFace& face = search_.faces()[search_.near_faces()[k]];
     std::array<Vec3, 4> corner;
-    for (int a = 0; a < face.corners(); ++a) corner[a] = points[face.point[a]].mean_of(x);
+    for (int a = 0; a < face.corners(); ++a) corner[a] = members_[face.point[a]].place();
     for (int half = 0; half < face.corners() - 2; ++half) {
       const Vec3 &a = corner[0], &b = corner[half + 1], &c = corner[half + 2];
       const Vec3 weight = closest_in_triangle(place, a, b, c);
@@ -156,13 +167,13 @@ Contact::Touch Contact::touch(const ContactSearch::Seeker& seeker, std::span<con
   if (touch.face < 0) return touch;
   // A point in the surface itself goes either way.
   const Vec3 normal = nearest > 0.0 ? Vec3(way / std::sqrt(nearest)) : across.normalized();
-  Vec3 closing = points[seeker.point].mean_of(v);
-  double inverse_mass = 1.0 / points[seeker.point].mean.mass;
+  Vec3 closing = point.velocity();
+  double inverse_mass = 1.0 / point.mass();
   const ContactFace& face = search_.faces()[touch.face];
   for (int a = 0; a < face.corners(); ++a) {
-    const Point& corner = points[face.point[a]];
-    closing -= touch.weight[a] * corner.mean_of(v);
-    inverse_mass += touch.weight[a] / corner.mean.mass;
+    const Member& corner = members_[face.point[a]];
+    closing -= touch.weight[a] * corner.velocity();
+    inverse_mass += touch.weight[a] / corner.mass();
   }
   touch.stiffness = frequency_ * frequency_ / inverse_mass;
   const double push =
@@ -171,11 +182,16 @@ Contact::Touch Contact::touch(const ContactSearch::Seeker& seeker, std::span<con
   return touch;
 }
 
-void Contact::compute_forces(std::span<const Vec3> x, std::span<const Vec3> v) {
+void Contact::compute_forces() {
+  if (search_.is_outdated()) {
+#pragma omp barrier  // before one thread changes what the others are asking for
+#pragma omp single
+    renew();
+  }
   const auto& seekers = search_.seekers();
   if (seekers.empty() && touched_.empty()) return;
 #pragma omp for schedule(dynamic, 16)
-  for (std::size_t s = 0; s < seekers.size(); ++s) touch_[s] = touch(seekers[s], x, v);
+  for (std::size_t s = 0; s < seekers.size(); ++s) touch_[s] = touch(seekers[s]);
 #pragma omp single
   sum_forces();
 }
@@ -194,14 +210,13 @@ void Contact::sum_forces() {
     const ContactFace& face = search_.faces()[touch.face];
     for (int a = 0; a < face.corners(); ++a) add(face.point[a], -touch.weight[a] * touch.force);
   }
-  touches_ = !touched_.empty();
 }
 
 // With the weights g = (1, -w) of a contact the matrix is sum k g g^T, whose rows, over the masses, sum up to 2 k |g| /
 // m.
 double Contact::largest_squared_frequency() const {
-  if (!touches_) return 0.0;
-  std::vector<double> stiffness(points_->size(), 0.0);
+  if (touched_.empty()) return 0.0;
+  std::vector<double> stiffness(members_.size(), 0.0);
   for (std::size_t s = 0; s < touch_.size(); ++s) {
     const Touch& touch = touch_[s];
     if (touch.face < 0) continue;
@@ -210,7 +225,7 @@ double Contact::largest_squared_frequency() const {
     for (int a = 0; a < face.corners(); ++a) stiffness[face.point[a]] += touch.weight[a] * touch.stiffness;
   }
   double largest = 0.0;
-  for (const int point : touched_) largest = std::max(largest, 2.0 * stiffness[point] / (*points_)[point].mean.mass);
+  for (const int point : touched_) largest = std::max(largest, 2.0 * stiffness[point] / members_[point].mass());
   return largest;
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Penalty contact of the surfaces of a body, with each other and with themselves: a point of a surface (a node, or the
+// Penalty contact of the surfaces of bodies, with each other and with themselves: a point of a surface (a node, or the
 // mean of a pair through the thickness) that is nearer than the gap g to the closest point c of another surface is
 // pushed away from it,
 //   f = k (g - d) n,   d = |x - c|,  n = (x - c) / d,
@@ -15,41 +15,57 @@
 
 #include "core/types.hpp"
 #include "fem/contact_search.hpp"
-#include "fem/loads.hpp"
 #include "fem/mesh.hpp"
 #include "fem/point.hpp"
 #include "fem/region.hpp"
 
 namespace drogue::fem {
 
-/// Functions whose "work is shared" divide it among the threads of the parallel region they are called in. Results do
-/// not depend on the number of threads.
+struct ContactOptions {
+  double gap = 0.0;         ///< distance within which surfaces push each other apart [m]
+  double stiffness = 0.03;  ///< squared frequency of two points in contact, over the largest of the elements
+  double damping = 0.0;     ///< of that motion, over the critical one
+};
+
+/// A body that may touch: its surfaces, its points, and where its nodes are [m] and how fast [m/s].
+struct ContactBody {
+  const Mesh& mesh;
+  const std::vector<Region>& regions;
+  const std::vector<Point>& points;
+  const std::vector<Vec3>&x, &v;
+};
+
+/// Points are numbered through, one body after the other. Functions whose "work is shared" divide it among the threads
+/// of the parallel region they are called in. Results do not depend on the number of threads.
 class Contact {
  public:
-  /// `points` outlive it; `squared_frequency`: the largest of the elements [1/s^2]. Throws InputError for options out
-  /// of range, and if there are no surfaces.
-  Contact(const ContactOptions& options, const Mesh& mesh, const std::vector<Region>& regions,
-          const std::vector<Point>& points, double squared_frequency);
+  /// What `bodies` refer to outlives it; `squared_frequency`: the largest of the elements [1/s^2]. Throws InputError
+  /// for options out of range, and if there are no surfaces.
+  Contact(const ContactOptions& options, const std::vector<ContactBody>& bodies, double squared_frequency);
 
   /// Notes how far surfaces have moved. Work is shared, without a barrier at the end.
-  void watch(std::span<const Vec3> x) {
-    search_.watch([&](int point) { return (*points_)[point].mean_of(x); });
+  void watch() {
+    search_.watch([this](int point) { return members_[point].place(); });
   }
-  /// After watch() by all threads.
-  bool is_outdated() const { return search_.is_outdated(); }
-  /// Finds what is near what, by one thread.
-  void renew(std::span<const Vec3> x);
-  /// Forces at positions `x` [m] and velocities `v` [m/s], for force_on(). Work is shared, up to a barrier.
-  void compute_forces(std::span<const Vec3> x, std::span<const Vec3> v);
+  /// Forces at the places and velocities that the bodies have. After watch() by all threads, no longer ago than a few
+  /// sub-steps. Work is shared, up to a barrier.
+  void compute_forces();
 
-  /// Of the last compute_forces(): whether anything touches, and the force on a point [N].
-  bool touches() const { return touches_; }
-  const Vec3& force_on(std::size_t point) const { return force_[point]; }
+  /// Of the last compute_forces(), on the points of a body [N]; empty if nothing touches.
+  std::span<const Vec3> forces_on(std::size_t body) const;
   /// Of it, from above: largest eigenvalue of stiffness over mass [1/s^2] and of damping over mass [1/s].
   double largest_squared_frequency() const;
   double largest_damping_rate() const { return 2.0 * damping_ / frequency_ * largest_squared_frequency(); }
 
  private:
+  /// A point of a body.
+  struct Member {
+    const Point* point;
+    const std::vector<Vec3>*x, *v;
+    Vec3 place() const { return point->mean_of(*x); }
+    Vec3 velocity() const { return point->mean_of(*v); }
+    double mass() const { return point->mean.mass; }
+  };
   /// Of a seeker with the face that is closest to it.
   struct Touch {
     int face = -1;  ///< none if negative
@@ -57,18 +73,20 @@ class Contact {
     double stiffness = 0.0;     ///< [N/m]
     Vec3 force = Vec3::Zero();  ///< [N]
   };
-  Touch touch(const ContactSearch::Seeker& seeker, std::span<const Vec3> x, std::span<const Vec3> v) const;
+  static std::vector<Member> members_of(const std::vector<ContactBody>& bodies);
+  void renew();
+  Touch touch(const ContactSearch::Seeker& seeker) const;
   void sum_forces();
 
-  const std::vector<Point>* points_;
-  double gap_;        ///< [m]
-  double frequency_;  ///< of two points in contact [1/s]
-  double damping_;    ///< of that motion, over the critical one
+  std::vector<Member> members_;     ///< all points
+  std::vector<std::size_t> first_;  ///< member of each body, and the end
+  double gap_;                      ///< [m]
+  double frequency_;                ///< of two points in contact [1/s]
+  double damping_;                  ///< of that motion, over the critical one
   ContactSearch search_;
   std::vector<Touch> touch_;  ///< of each seeker
   std::vector<Vec3> force_;   ///< on each point [N]
   std::vector<int> touched_;  ///< points whose force is not zero
-  bool touches_ = false;
 };
 
 }  // namespace drogue::fem

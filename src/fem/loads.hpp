@@ -3,7 +3,6 @@
 #pragma once
 
 #include <array>
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -50,13 +49,6 @@ struct NodeLoad {
   std::array<Expression, 3> force{};  ///< of time alone [N], in all
 };
 
-/// What keeps surfaces apart, see fem/contact.hpp.
-struct ContactOptions {
-  double gap = 0.0;         ///< distance within which surfaces push each other apart [m]
-  double stiffness = 0.03;  ///< squared frequency of two points in contact, over the largest of the elements
-  double damping = 0.0;     ///< of that motion, over the critical one
-};
-
 struct Loads {
   std::vector<Hold> holds;
   std::vector<NodeLoad> forces;
@@ -65,7 +57,6 @@ struct Loads {
   Vec3 gravity = Vec3::Zero();     ///< [m/s^2]
   double damping = 0.0;            ///< Rayleigh's factor of the own mass [1/s]
   double stiffness_damping = 0.0;  ///< Rayleigh's factor of the stiffness of the elements [s]
-  std::optional<ContactOptions> contact;
 };
 
 }  // namespace drogue::fem

@@ -133,8 +133,8 @@ Structure::Data::Data(Model model)
   for (const Hold& hold : loads.holds) hold_moves.push_back(hold.moves());
   if (options.integrator == Integrator::implicit_scheme && needs_explicit_motion()) {
     throw InputError(
-        "implicit motion knows no contact, no hinged hold and no stiffness-proportional damping; expected explicit "
-        "motion, or none of them");
+        "implicit motion knows no hinged hold and no stiffness-proportional damping; expected explicit motion, or none "
+        "of them");
   }
   loads_vary = elements.vary() || std::ranges::find(hold_moves, true) != hold_moves.end() ||
                std::ranges::any_of(loads.forces, [](const NodeLoad& load) { return vary(load.force); });
@@ -177,9 +177,7 @@ void Structure::Data::assign_points(Inertia new_inertia) {
   hold_impulse.assign(points.size(), Vec3::Zero());
   assemble_mass();
   compare_masses();
-  contact.reset();
   estimate_largest_frequency();
-  if (loads.contact) contact.emplace(*loads.contact, mesh, regions, points, std::pow(largest_frequency, 2));
   reference_step = stable_step();
 }
 

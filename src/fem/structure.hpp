@@ -124,8 +124,11 @@ class Structure {
   /// Saves or restores positions and velocities. Throws InputError if those saved are of another mesh.
   void transfer_state(Archive& archive);
 
- private:
+  /// For TouchingStructures alone.
   struct Data;
+  Data& data() { return *data_; }
+
+ private:
   std::unique_ptr<Data> data_;
 };
 

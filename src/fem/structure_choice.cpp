@@ -49,7 +49,7 @@ int elements_across(const Elements& elements, std::size_t nodes) {
 }  // namespace
 
 bool Structure::Data::needs_explicit_motion() const {
-  return loads.contact || loads.stiffness_damping > 0.0 || std::ranges::any_of(loads.holds, &Hold::hinged);
+  return loads.stiffness_damping > 0.0 || std::ranges::any_of(loads.holds, &Hold::hinged);
 }
 
 double Structure::Data::cost_of_forces() const {

@@ -3,7 +3,6 @@
 #pragma once
 
 #include <memory>
-#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -30,7 +29,6 @@ struct Structure::Data {
 
   Inertia inertia;
   std::vector<Point> points;
-  std::optional<Contact> contact;
   struct ThinElement {
     std::array<int, 8> nodes;
     int direction;  ///< parent direction along which pairs face each other
@@ -59,10 +57,9 @@ struct Structure::Data {
   void assemble_mass();
   void compare_masses();
   void estimate_largest_frequency();
-  void compute_forces(int substep);
-  void compute_contact();
-  double stable_step() const;
-  int substeps_for(double dt, double time);
+  void compute_forces();
+  double stable_step(const Contact* contact = nullptr) const;
+  int substeps_for(double dt, double time, const Contact* contact);
   void stop_rigidly_held();
   /// A share of the loads of `time` [s] acts from now on.
   void set_time(double time, double share = 1.0);
@@ -73,14 +70,15 @@ struct Structure::Data {
   double displacement_of(const Hold& hold, int axis) const {
     return hold_displacement[&hold - loads.holds.data()][axis];
   }
-  void advance_explicitly(double dt, double time);
+  static void advance_explicitly(std::span<Data* const> structures, Contact* contact, double dt, double time);
   struct Coordinate {
     Vec3 position, reference, velocity;
   };
   Vec3 resisted_change(const Point& p, const Inertance& inertance, const Vec3& f, bool follows, const Coordinate& at,
                        double dt) const;
-  void move(std::size_t point, double dt);
+  void move(std::size_t point, const Vec3& push, double dt);
   void advance_implicitly(double dt, double time);
+  void sum_reaction(double dt);
   struct ImplicitStep;
   bool step_implicitly(double dt, double time, Vec3& impulse);
   void find_acceleration();

@@ -51,7 +51,8 @@ Vec3 Structure::Data::resisted_change(const Point& p, const Inertance& inertance
   return dv;
 }
 
-void Structure::Data::move(std::size_t i, double dt) {
+/// With a `push` [N] besides its other forces.
+void Structure::Data::move(std::size_t i, const Vec3& push, double dt) {
   const Point& p = points[i];
   const bool is_free = !p.is_held() && loads.damping == 0.0;
   // `of` takes the coordinate out of a nodal field.
@@ -64,7 +65,7 @@ void Structure::Data::move(std::size_t i, double dt) {
     v[node] += dv;
   };
   const auto mean_of = [&p](const std::vector<Vec3>& field) { return p.mean_of(field); };
-  const Vec3 load = contact && contact->touches() ? Vec3(p.weight + contact->force_on(i)) : p.weight;
+  const Vec3 load = p.weight + push;
   Vec3 force = nodal_force(p.a), dv;
   if (p.is_pair()) {
     const Vec3 force_b = nodal_force(p.b);
@@ -121,12 +122,9 @@ void Structure::Data::set_time(double time, double share) {
 
 void Structure::Data::estimate_largest_frequency() {
   largest_frequency = std::sqrt(elements.largest_squared_frequency(x));
-  if (!contact) return;
-  contact->watch(x);
-  compute_contact();
 }
 
-double Structure::Data::stable_step() const {
+double Structure::Data::stable_step(const Contact* contact) const {
   double squared_frequency = largest_frequency * largest_frequency;
   double damping_rate = loads.stiffness_damping * squared_frequency;
   if (contact) {
@@ -138,34 +136,21 @@ double Structure::Data::stable_step() const {
   return options.safety * 4.0 / (c + std::sqrt(c * c + 4.0 * a));
 }
 
-/// Of elements, for nodal_force(), and of contact, at the start of a sub-step. Work is shared.
-void Structure::Data::compute_forces(int substep) {
-  constexpr int interval = 4;  // between looks at how far surfaces have moved, as many of which make up a margin
-  if (contact && substep % interval == 0) contact->watch(x);
+/// Of elements, for nodal_force(), at the start of a sub-step. Work is shared.
+void Structure::Data::compute_forces() {
   if (loads.stiffness_damping == 0.0) {
     elements.compute_forces(x);
-  } else {
+    return;
+  }
 #pragma omp for schedule(static)
-    for (std::size_t node = 0; node < x.size(); ++node) forced_at[node] = x[node] + loads.stiffness_damping * v[node];
-    elements.compute_forces(forced_at);
-  }
-  if (contact && !elements.out_of_bounds()) compute_contact();
+  for (std::size_t node = 0; node < x.size(); ++node) forced_at[node] = x[node] + loads.stiffness_damping * v[node];
+  elements.compute_forces(forced_at);
 }
 
-/// After Contact::watch(). Work is shared.
-void Structure::Data::compute_contact() {
-  if (contact->is_outdated()) {
-#pragma omp barrier  // before one thread changes what the others are asking for
-#pragma omp single
-    contact->renew(x);
-  }
-  contact->compute_forces(x, v);
-}
-
-int Structure::Data::substeps_for(double dt, double time) {
+int Structure::Data::substeps_for(double dt, double time, const Contact* contact) {
   // Far beyond any useful count: an element that asks for more is crushed or inverted, be it between its Gauss points.
   constexpr double most = 20'000;
-  const double count = std::ceil(dt / stable_step());
+  const double count = std::ceil(dt / stable_step(contact));
   if (count <= most) return std::max(1, static_cast<int>(count));
   elements.forget_out_of_bounds();
   elements.compute_forces(x);
@@ -193,26 +178,57 @@ void Structure::Data::report_divergence(double time) const {
                   place.z(), time));
 }
 
-void Structure::Data::advance_explicitly(double dt, double time) {
-  estimate_largest_frequency();
-  substeps = substeps_for(dt, time);
-  elements.forget_out_of_bounds();
+/// In common sub-steps, which suit all of them; `contact` between them may be null.
+void Structure::Data::advance_explicitly(std::span<Data* const> structures, Contact* contact, double dt, double time) {
+  constexpr int interval = 4;  // between looks at how far surfaces have moved, as many of which make up a margin
+  for (Data* d : structures) d->estimate_largest_frequency();
+  if (contact) {
+    contact->watch();
+    contact->compute_forces();
+  }
+  int substeps = 1, threads = 1;
+  for (Data* d : structures) {
+    substeps = std::max(substeps, d->substeps_for(dt, time, contact));
+    threads = std::max(threads, d->elements.threads());
+    d->elements.forget_out_of_bounds();
+  }
   const double substep = dt / substeps;
+  const auto is_torn = [](const Data* d) { return d->elements.out_of_bounds(); };
   int done = 0;
-#pragma omp parallel num_threads(elements.threads())
+#pragma omp parallel num_threads(threads)
   for (int n = 0; n < substeps; ++n) {
-    if (loads_vary) {
+    if (contact && n % interval == 0) contact->watch();
+    for (Data* d : structures) {
+      if (d->loads_vary) {
 #pragma omp single
-      set_time(time + (n + 1) * substep);
+        d->set_time(time + (n + 1) * substep);
+      }
+      d->compute_forces();
     }
-    compute_forces(n);
-    if (elements.out_of_bounds()) break;
+    if (std::ranges::any_of(structures, is_torn)) break;
+    if (contact) contact->compute_forces();
 #pragma omp single nowait
     done = n + 1;
+    for (std::size_t s = 0; s < structures.size(); ++s) {
+      Data& d = *structures[s];
+      const std::span<const Vec3> push = contact ? contact->forces_on(s) : std::span<const Vec3>();
 #pragma omp for schedule(static)
-    for (std::size_t point = 0; point < points.size(); ++point) move(point, substep);
+      for (std::size_t point = 0; point < d.points.size(); ++point) {
+        d.move(point, push.empty() ? Vec3(Vec3::Zero()) : push[point], substep);
+      }
+    }
   }
-  if (elements.out_of_bounds()) report_divergence(time + done * substep);
+  for (Data* d : structures) {
+    if (is_torn(d)) d->report_divergence(time + done * substep);
+    d->substeps = substeps;
+  }
+}
+
+/// Of all holds over a step of `dt`.
+void Structure::Data::sum_reaction(double dt) {
+  Vec3 impulse = Vec3::Zero();
+  for (const Vec3& of_point : hold_impulse) impulse += of_point;
+  reaction = impulse / dt;
 }
 
 void Structure::advance(double dt, double time) {
@@ -222,11 +238,9 @@ void Structure::advance(double dt, double time) {
   if (integrator_for(dt) == Integrator::implicit_scheme) {
     d.advance_implicitly(dt, time);
   } else {
-    d.advance_explicitly(dt, time);
+    d.advance_explicitly(std::array{&d}, nullptr, dt, time);
   }
-  Vec3 impulse = Vec3::Zero();
-  for (const Vec3& of_point : d.hold_impulse) impulse += of_point;
-  d.reaction = impulse / dt;
+  d.sum_reaction(dt);
 }
 
 }  // namespace drogue::fem

@@ -73,19 +73,19 @@ Coupling::Coupling(fem::Structure& structure, const amr::Forest& forest, const C
 }
 
 void Coupling::on_fine_step(fluid::FineStep& step) {
-  switch (options_.scheme) {
-    case Scheme::added_mass:
-      step_with_added_mass(step);
-      break;
-    case Scheme::peskin:
-      step_as_peskin(step);
-      break;
+  if (options_.scheme == Scheme::peskin) {
+    step_as_peskin(step);
+    return;
   }
-  impulse_ += step.dt * record_.force;
-  elapsed_ += step.dt;
+  meet_fluid(step);
+  {
+    const Timed timed(structure_time_);
+    structure_->advance(step.dt, step.time - step.dt);
+  }
+  part_from_fluid(step);
 }
 
-void Coupling::step_with_added_mass(fluid::FineStep& step) {
+void Coupling::meet_fluid(const fluid::FineStep& step) {
   const int points = points_.size();
 #pragma omp parallel for schedule(static)
   for (int p = 0; p < points; ++p) position_[p] = structure_->mean_position(p);
@@ -97,10 +97,10 @@ void Coupling::step_with_added_mass(fluid::FineStep& step) {
     structure_->set_mean_velocity(p, fluid_velocity_[p] - m / (m + dragged) * slip_[p]);
   }
   record_.slip_before = root_mean_square(slip_, points_.dragged_mass);
-  {
-    const Timed timed(structure_time_);
-    structure_->advance(step.dt, step.time - step.dt);
-  }
+}
+
+void Coupling::part_from_fluid(fluid::FineStep& step) {
+  const int points = points_.size();
 #pragma omp parallel for schedule(static)
   for (int p = 0; p < points; ++p) {
     force_[p] = points_.dragged_mass[p] / step.dt * (structure_->mean_velocity(p) - fluid_velocity_[p]);
@@ -143,6 +143,8 @@ void Coupling::give_to_fluid(fluid::FineStep& step) {
   markers_.spread(force_, step.f);
   record_.force.setZero();
   for (const Vec3& force : force_) record_.force -= force;
+  impulse_ += step.dt * record_.force;
+  elapsed_ += step.dt;
 }
 
 Vec3 Coupling::velocity_of(int point) const {

@@ -45,6 +45,10 @@ class Coupling : public fluid::FineStepHook {
 
   /// Throws InputError if the body leaves the finest blocks, Diverged if an element is torn.
   void on_fine_step(fluid::FineStep& step) override;
+  /// What the added-mass scheme does in it before and after the structure advances, for structures that advance
+  /// together.
+  void meet_fluid(const fluid::FineStep& step);
+  void part_from_fluid(fluid::FineStep& step);
 
   const CouplingRecord& last() const { return record_; }
   /// Mean over the time since the last call of the force on the body [N]; resets the mean.
@@ -59,7 +63,6 @@ class Coupling : public fluid::FineStepHook {
   void transfer_state(Archive& archive);
 
  private:
-  void step_with_added_mass(fluid::FineStep& step);
   void step_as_peskin(fluid::FineStep& step);
   void read_fluid(const fluid::FineStep& step);
   void give_to_fluid(fluid::FineStep& step);
