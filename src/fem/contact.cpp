@@ -121,6 +121,7 @@ Contact::Contact(const ContactOptions& options, const std::vector<ContactBody>& 
       frequency_(std::sqrt(options.stiffness * squared_frequency)),
       damping_(options.damping),
       search_(make_search(bodies, gap_)),
+      place_(members_.size()),
       force_(members_.size(), Vec3::Zero()) {
   for (const ContactBody& body : bodies) first_.push_back(first_.back() + body.points.size());
 }
@@ -130,12 +131,12 @@ std::span<const Vec3> Contact::forces_on(std::size_t body) const {
   return std::span(force_).subspan(first_[body], first_[body + 1] - first_[body]);
 }
 
-/// Finds what is near what.
+/// Finds what is near what. Work is shared, up to a barrier.
 void Contact::renew() {
-  std::vector<Vec3> place;
-  place.reserve(members_.size());
-  for (const Member& member : members_) place.push_back(member.place());
-  search_.find(place);
+#pragma omp for schedule(static)
+  for (std::size_t i = 0; i < members_.size(); ++i) place_[i] = members_[i].place();
+  search_.find(place_);
+#pragma omp single
   touch_.assign(search_.seekers().size(), Touch{});
 }
 
@@ -185,13 +186,15 @@ Contact::Touch Contact::touch(const ContactSearch::Seeker& seeker) const {
 void Contact::compute_forces() {
   if (search_.is_outdated()) {
 #pragma omp barrier  // before one thread changes what the others are asking for
-#pragma omp single
     renew();
   }
   const auto& seekers = search_.seekers();
   if (seekers.empty() && touched_.empty()) return;
+  const double near = gap_ + search_.approach();
 #pragma omp for schedule(dynamic, 16)
-  for (std::size_t s = 0; s < seekers.size(); ++s) touch_[s] = touch(seekers[s]);
+  for (std::size_t s = 0; s < seekers.size(); ++s) {
+    touch_[s] = seekers[s].distance < near ? touch(seekers[s]) : Touch{};
+  }
 #pragma omp single
   sum_forces();
 }

@@ -84,6 +84,7 @@ class Contact {
   double frequency_;                ///< of two points in contact [1/s]
   double damping_;                  ///< of that motion, over the critical one
   ContactSearch search_;
+  std::vector<Vec3> place_;   ///< of each point when contact_search.hpp was asked last [m]
   std::vector<Touch> touch_;  ///< of each seeker
   std::vector<Vec3> force_;   ///< on each point [N]
   std::vector<int> touched_;  ///< points whose force is not zero

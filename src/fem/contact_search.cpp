@@ -12,6 +12,8 @@
 namespace drogue::fem {
 namespace {
 
+constexpr double spent = 0.75;  // of the spare motion; the rest is for what happens until the next watch()
+
 /// Points within `reach` [m] of one along the graph, and all its neighbours.
 std::vector<int> vicinity(const ContactGraph& graph, int start, double reach) {
   using Stop = std::pair<double, int>;
@@ -43,19 +45,22 @@ Box box_of(const ContactFace& face, std::span<const Vec3> place) {
 
 ContactSearch::ContactSearch(std::vector<ContactFace> faces, const ContactGraph& graph, std::span<const Vec3> place,
                              double distance)
-    : faces_(std::move(faces)), margin_(distance), reach_(distance + margin_), cell_(2.0 * reach_) {
+    : faces_(std::move(faces)), distance_(distance), reach_(2.0 * distance) {
   std::set<int> points;
   double extent = 0.0;
   for (const ContactFace& face : faces_) {
     points.insert(face.point.begin(), face.point.begin() + face.corners());
     extent += box_of(face, place).size().maxCoeff();
   }
-  if (!faces_.empty()) cell_ += extent / static_cast<double>(faces_.size());
+  // Of a sheet whose faces are wider than the distance, nothing else is nearer than one face.
+  look_ = reach_ + extent / static_cast<double>(faces_.size());
+  cell_ = 2.0 * look_;
   points_.assign(points.begin(), points.end());
   leave_out_vicinities(graph, 1.5 * distance);
   // Until the first find() nothing is known.
   found_at_.assign(points_.size(), Vec3::Constant(INFINITY));
   moved_.assign(omp_get_max_threads(), Box{Vec3::Zero(), Vec3::Zero()});
+  found_.resize(moved_.size());
 }
 
 void ContactSearch::leave_out_vicinities(const ContactGraph& graph, double reach) {
@@ -74,16 +79,20 @@ void ContactSearch::leave_out_vicinities(const ContactGraph& graph, double reach
 
 void ContactSearch::note(const Box& moved) { moved_[omp_get_thread_num()] = moved; }
 
-bool ContactSearch::is_outdated() const {
+/// No two points can have moved further relative to each other [m].
+double ContactSearch::moved() const {
   Box moved = moved_[0];
   for (const Box& by_thread : moved_) {
     moved.lower = moved.lower.cwiseMin(by_thread.lower);
     moved.upper = moved.upper.cwiseMax(by_thread.upper);
   }
-  constexpr double spent = 0.75;  // the rest is for what happens until the next watch()
-  // No two points can have moved further relative to each other. Holds of what is no number, too.
-  return !(moved.size().norm() <= spent * margin_);
+  return moved.size().norm();
 }
+
+// Holds of what is no number, too.
+bool ContactSearch::is_outdated() const { return !(moved() <= spent * spare_); }
+
+double ContactSearch::approach() const { return moved() + (1.0 - spent) * spare_; }
 
 Index3 ContactSearch::cell_of(const Vec3& place) const {
   const Vec3 cell = (place / cell_).array().floor();
@@ -105,19 +114,15 @@ void ContactSearch::fill_cells(std::span<const Vec3> place) {
   resident_.resize(points_.size());
   for (const int point : points_) {
     const Index3 cell = cell_of(place[point]);
-    resident_[next[bucket_of(cell)]++] = {point, cell};
+    resident_[next[bucket_of(cell)]++] = {point, cell, place[point]};
   }
 }
 
-/// Adds {point, face} for every point in the box of a face with the reach around it. `marked_by` holds for each point
-/// the last face that left it out.
-void ContactSearch::find_near(int face, std::span<const Vec3> place, std::vector<int>& marked_by,
-                              std::vector<std::array<int, 2>>& found) const {
-  Box box = box_of(faces_[face], place);
-  box.lower.array() -= reach_;
-  box.upper.array() += reach_;
-  for (int k = first_neighbour_[face]; k < first_neighbour_[face + 1]; ++k) marked_by[neighbour_[k]] = face;
-  const Index3 first = cell_of(box.lower), last = cell_of(box.upper);
+/// Adds every point within reach of the box of a face, along each axis.
+void ContactSearch::find_near(int face, std::span<const Vec3> place, Found& found) const {
+  const Box box = box_of(faces_[face], place);
+  for (int k = first_neighbour_[face]; k < first_neighbour_[face + 1]; ++k) found.marked_by[neighbour_[k]] = face;
+  const Index3 first = cell_of(box.lower.array() - look_), last = cell_of(box.upper.array() + look_);
   for (int z = first[2]; z <= last[2]; ++z) {
     for (int y = first[1]; y <= last[1]; ++y) {
       for (int x = first[0]; x <= last[0]; ++x) {
@@ -125,8 +130,13 @@ void ContactSearch::find_near(int face, std::span<const Vec3> place, std::vector
         const std::size_t bucket = bucket_of(cell);
         for (int k = first_resident_[bucket]; k < first_resident_[bucket + 1]; ++k) {
           const Resident& resident = resident_[k];
-          if (marked_by[resident.point] == face || resident.cell != cell) continue;
-          if (box.contains(place[resident.point])) found.push_back({resident.point, face});
+          if (found.marked_by[resident.point] == face || resident.cell != cell) continue;
+          const double distance = (box.lower - resident.place).cwiseMax(resident.place - box.upper).maxCoeff();
+          if (distance <= reach_) {
+            found.near.push_back({resident.point, face, distance});
+          } else {
+            found.beyond = std::min(found.beyond, distance);
+          }
         }
       }
     }
@@ -134,17 +144,40 @@ void ContactSearch::find_near(int face, std::span<const Vec3> place, std::vector
 }
 
 void ContactSearch::find(std::span<const Vec3> place) {
-  fill_cells(place);
-  std::vector<std::array<int, 2>> found;
-  std::vector<int> marked_by(place.size(), -1);
-  for (int face = 0; face < static_cast<int>(faces_.size()); ++face) find_near(face, place, marked_by, found);
-  std::ranges::sort(found);
+#pragma omp single
+  {
+    fill_cells(place);
+    for (Found& found : found_) {
+      found.near.clear();
+      found.beyond = look_;
+    }
+  }
+  Found& found = found_[omp_get_thread_num()];
+  found.marked_by.assign(place.size(), -1);
+  const int faces = static_cast<int>(faces_.size());
+#pragma omp for schedule(static)
+  for (int face = 0; face < faces; ++face) find_near(face, place, found);
+#pragma omp single
+  collect(place);
+}
+
+/// What the threads have found.
+void ContactSearch::collect(std::span<const Vec3> place) {
+  std::vector<Near> all;
+  double beyond = look_;
+  for (const Found& found : found_) {
+    all.insert(all.end(), found.near.begin(), found.near.end());
+    beyond = std::min(beyond, found.beyond);
+  }
+  spare_ = beyond - distance_;
+  std::ranges::sort(all);
   seekers_.clear();
   near_faces_.clear();
-  for (const auto& [point, face] : found) {
+  for (const auto& [point, face, distance] : all) {
     const int next = static_cast<int>(near_faces_.size());
-    if (seekers_.empty() || seekers_.back().point != point) seekers_.push_back({point, next, next});
+    if (seekers_.empty() || seekers_.back().point != point) seekers_.push_back({point, next, next, distance});
     seekers_.back().last = next + 1;
+    seekers_.back().distance = std::min(seekers_.back().distance, distance);
     near_faces_.push_back(face);
   }
   for (std::size_t k = 0; k < points_.size(); ++k) found_at_[k] = place[points_[k]];

@@ -9,6 +9,7 @@
 #include "../core/memory_archive.hpp"
 #include "bodies.hpp"
 #include "core/error.hpp"
+#include "crossings.hpp"
 #include "fem/touching_structures.hpp"
 
 namespace drogue::fem {
@@ -148,9 +149,9 @@ double clearance(const Scene& scene) {
   return lowest - highest;
 }
 
-class ClosingSquares : public testing::TestWithParam<bool> {};
+class ClosingSquares : public ::testing::TestWithParam<bool> {};
 
-INSTANTIATE_TEST_SUITE_P(Of, ClosingSquares, testing::Bool(),
+INSTANTIATE_TEST_SUITE_P(Of, ClosingSquares, ::testing::Bool(),
                          [](const auto& test) { return test.param ? "two_bodies" : "one_body"; });
 
 TEST_P(ClosingSquares, part_again_with_their_momenta_and_energy) {
@@ -244,31 +245,6 @@ TEST(Contact, a_sheet_that_is_folded_onto_itself_does_not_pass_through) {
   EXPECT_GT(depth(closing_book(std::nullopt, false)), 0.05);
 }
 
-bool crosses(const Vec3& from, const Vec3& to, const Vec3& a, const Vec3& b, const Vec3& c) {
-  const auto volume = [](const Vec3& p, const Vec3& q, const Vec3& r, const Vec3& s) {
-    return (q - p).cross(r - p).dot(s - p);
-  };
-  if (volume(a, b, c, from) * volume(a, b, c, to) >= 0.0) return false;
-  const double u = volume(from, to, a, b), v = volume(from, to, b, c), w = volume(from, to, c, a);
-  return (u > 0.0 && v > 0.0 && w > 0.0) || (u < 0.0 && v < 0.0 && w < 0.0);
-}
-
-/// How often edges of triangles pass through triangles.
-int crossings(const Structure& body) {
-  const auto& x = body.position();
-  int count = 0;
-  for (const auto& face : body.mesh().triangles) {
-    for (const auto& other : body.mesh().triangles) {
-      for (int k = 0; k < 3; ++k) {
-        const int from = face[k], to = face[(k + 1) % 3];
-        if (std::ranges::find(other, from) != other.end() || std::ranges::find(other, to) != other.end()) continue;
-        count += crosses(x[from], x[to], x[other[0]], x[other[1]], x[other[2]]);
-      }
-    }
-  }
-  return count;
-}
-
 /// A dome of fabric falls on the ground, a held sheet, and is pushed together on the way.
 int crossings_of_collapse(const MaybeContact& contact) {
   Mesh mesh = make_disk({Vec3(0, 0, 0.05), 2, 0.3, {12, 8}, true});
@@ -289,7 +265,7 @@ int crossings_of_collapse(const MaybeContact& contact) {
   int most = 0;
   for (int step = 1; step <= 120; ++step) {
     canopy.advance(2e-3);
-    if (step % 40 == 0) most = std::max(most, crossings(canopy.bodies.front()));
+    if (step % 40 == 0) most = std::max(most, drogue::testing::crossings(std::array{&canopy.bodies.front()}));
   }
   return most;
 }
