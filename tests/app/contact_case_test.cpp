@@ -2,6 +2,10 @@
 // Contact asked for by a case: bodies that touch, in a fluid and without.
 #include <gtest/gtest.h>
 
+#include "../fem/crossings.hpp"
+#include "app/case_reader.hpp"
+#include "app/elastic_body.hpp"
+#include "app/simulation.hpp"
 #include "io/csv.hpp"
 #include "run_fixture.hpp"
 
@@ -20,7 +24,7 @@ probe = [{ name = "left_x", place = [-0.05, 0, 0], direction = [1, 0, 0] }]
 
 [[body.force]]
 nodes = "all"
-force = [2, 0, 0]
+force = [0.5, 0, 0]
 
 [[body]]
 name = "right"
@@ -32,14 +36,14 @@ probe = [{ name = "right_x", place = [0.05, 0, 0], direction = [-1, 0, 0] }]
 
 [[body.force]]
 nodes = "all"
-force = [-2, 0, 0]
+force = [-0.5, 0, 0]
 
 [contact]
 gap = 0.02
 damping = 0.3
 
 [time]
-end = 0.15
+end = 0.6
 )";
 
 const std::string fluid_at_rest = R"(
@@ -56,7 +60,7 @@ z_max = { type = "periodic" }
 [fluid]
 density = 1.2
 viscosity = 1e-3
-reference_velocity = 1
+reference_velocity = 2
 lattice_velocity = 0.1
 
 [grid]
@@ -118,7 +122,7 @@ TEST_P(ContactCase, gives_the_same_bits_for_any_number_of_threads_and_after_a_re
   const std::vector<std::string> whole = reproducible_history();
   options_.force = true;
   options_.threads = 2;
-  options_.until = 0.1;
+  options_.until = 0.4;
   run_case(options_);
   options_.force = false;
   options_.resume = true;
@@ -137,6 +141,43 @@ TEST_P(ContactCase, makes_motion_explicit_where_it_may_choose) {
   options_.overrides = {"body.right.integrator=auto", "time.end=0.01", "results.stable_window=[0, 0.01]"};
   run_case(options_);
   EXPECT_EQ(summary()["structure"]["right"], "explicit");
+}
+
+struct Collapse {
+  int crossings = 0;    ///< most at any time
+  double energy = 0.0;  ///< of the bodies at the end [J]
+};
+
+/// The shipped case on cells twice as wide.
+Collapse collapse(bool contact) {
+  const CaseFolder folder;
+  Case c = read_case(std::filesystem::path(DROGUE_SOURCE_DIR) / "cases/canopies_sinking",
+                     {"grid.finest=1/32", "contact.gap=0.024", "body.left.mesh.elements=[10, 10]",
+                      "body.right.mesh.elements=[10, 10]"});
+  if (!contact) c.contact.reset();
+  Simulation simulation(c, folder.path());
+  std::vector<const fem::Structure*> structures;
+  for (const auto& body : simulation.bodies()) {
+    structures.push_back(&dynamic_cast<CoupledElasticBody&>(*body).structure());
+  }
+  Collapse collapse;
+  for (int step = 1; simulation.time() < c.end; ++step) {
+    simulation.step();
+    if (step % 16 != 0) continue;
+    collapse.crossings = std::max(collapse.crossings, fem::crossings(structures));
+    double e = 0.0;
+    for (const auto* body : structures) e += body->elastic_energy() + body->kinetic_energy();
+    std::printf("%g %d %g\n", simulation.time(), fem::crossings(structures), e);
+  }
+  for (const fem::Structure* structure : structures) {
+    collapse.energy += structure->elastic_energy() + structure->kinetic_energy();
+  }
+  return collapse;
+}
+
+TEST(CanopiesSinking, fold_onto_themselves_and_each_other_without_passing_through) {
+  EXPECT_EQ(collapse(true).crossings, 0);
+  EXPECT_GT(collapse(false).crossings, 20);
 }
 
 }  // namespace

@@ -10,7 +10,7 @@
 
 #include "fem/structure.hpp"
 
-namespace drogue::testing {
+namespace drogue::fem {
 
 /// Whether the way between two points leads through a triangle.
 inline bool crosses(const Vec3& from, const Vec3& to, const Vec3& a, const Vec3& b, const Vec3& c) {
@@ -23,10 +23,10 @@ inline bool crosses(const Vec3& from, const Vec3& to, const Vec3& a, const Vec3&
 }
 
 /// How often edges of triangles and halves of quadrilaterals pass through others, of one body or of several.
-inline int crossings(std::span<const fem::Structure* const> bodies) {
+inline int crossings(std::span<const Structure* const> bodies) {
   std::vector<Vec3> x;
   std::vector<std::array<int, 3>> faces;
-  for (const fem::Structure* body : bodies) {
+  for (const Structure* body : bodies) {
     const int first = static_cast<int>(x.size());
     x.insert(x.end(), body->position().begin(), body->position().end());
     for (const auto& [a, b, c] : body->mesh().triangles) faces.push_back({first + a, first + b, first + c});
@@ -48,4 +48,4 @@ inline int crossings(std::span<const fem::Structure* const> bodies) {
   return count;
 }
 
-}  // namespace drogue::testing
+}  // namespace drogue::fem

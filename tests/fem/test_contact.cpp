@@ -265,7 +265,7 @@ int crossings_of_collapse(const MaybeContact& contact) {
   int most = 0;
   for (int step = 1; step <= 120; ++step) {
     canopy.advance(2e-3);
-    if (step % 40 == 0) most = std::max(most, drogue::testing::crossings(std::array{&canopy.bodies.front()}));
+    if (step % 40 == 0) most = std::max(most, crossings(std::array{&canopy.bodies.front()}));
   }
   return most;
 }

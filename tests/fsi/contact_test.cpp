@@ -10,7 +10,7 @@ namespace {
 
 using namespace drogue::testing;
 
-/// Two plates in a fluid at rest, which close in on each other at 4 m/s from a distance of 0.06 m.
+/// Two plates in a fluid at rest, which close in on each other at 1 m/s from a distance of 0.06 m.
 class ClosingPlates : public fluid::FineStepHook {
  public:
   ClosingPlates(const amr::Forest& forest, bool contact)
@@ -18,8 +18,8 @@ class ClosingPlates : public fluid::FineStepHook {
         right_(plate({.density = 40.0, .side = 0.25, .elements = 9}, Vec3(0.03, 0.01, 0.0))),
         left_coupling_(left_, forest, coupled("left")),
         right_coupling_(right_, forest, coupled("right")) {
-    add_velocity(left_, std::vector<Vec3>(left_.position().size(), Vec3(2.0, 0.0, 0.0)));
-    add_velocity(right_, std::vector<Vec3>(right_.position().size(), Vec3(-2.0, 0.0, 0.0)));
+    add_velocity(left_, std::vector<Vec3>(left_.position().size(), Vec3(0.5, 0.0, 0.0)));
+    add_velocity(right_, std::vector<Vec3>(right_.position().size(), Vec3(-0.5, 0.0, 0.0)));
     if (contact) touching_.emplace(std::vector{&left_, &right_}, fem::ContactOptions{.gap = 0.02});
   }
 
@@ -46,13 +46,12 @@ class ClosingPlates : public fluid::FineStepHook {
     return sum;
   }
 
-  /// Smallest x of the right plate less the largest of the left one.
+  /// Between the middles of the plates, from face to face.
   double clearance() const {
-    double distance = INFINITY;
-    for (const Vec3& a : left_.position()) {
-      for (const Vec3& b : right_.position()) distance = std::min(distance, b.x() - a.x());
-    }
-    return distance;
+    const auto x_of = [](const fem::Structure& body, const Vec3& place) {
+      return body.position()[fem::node_nearest(body.mesh(), place)].x();
+    };
+    return x_of(right_, Vec3(0.025, 0.01, 0.0)) - x_of(left_, Vec3(-0.025, 0.0, 0.0));
   }
 
  private:
@@ -61,14 +60,14 @@ class ClosingPlates : public fluid::FineStepHook {
   std::optional<fem::TouchingStructures> touching_;
 };
 
-/// The smallest clearance in 0.1 s.
+/// The smallest clearance in 0.16 s.
 double closest(bool contact) {
   const amr::Forest forest = cube_of_fine_blocks();
   FakeFluid fluid(forest, fluid_density);
   ClosingPlates plates(forest, contact);
   const Vec3 before = fluid.momentum() + plates.momentum();
   double smallest = INFINITY;
-  for (int step = 0; step < 50; ++step) {
+  for (int step = 0; step < 80; ++step) {
     fluid.step(plates, 2e-3);
     smallest = std::min(smallest, plates.clearance());
     EXPECT_LT((fluid.momentum() + plates.momentum() - before).norm(), 1e-6);
@@ -80,7 +79,7 @@ class ContactInFluid : public OnOneThread {};
 
 TEST_F(ContactInFluid, bodies_that_meet_stay_apart_and_keep_the_momentum_of_all) {
   EXPECT_GT(closest(true), 0.0);
-  EXPECT_LT(closest(false), -0.01);
+  EXPECT_LT(closest(false), 0.0);
 }
 
 }  // namespace
