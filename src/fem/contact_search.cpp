@@ -113,8 +113,7 @@ void ContactSearch::fill_cells(std::span<const Vec3> place) {
   std::vector<int> next(first_resident_.begin(), first_resident_.end() - 1);
   resident_.resize(points_.size());
   for (const int point : points_) {
-    const Index3 cell = cell_of(place[point]);
-    resident_[next[bucket_of(cell)]++] = {point, cell, place[point]};
+    resident_[next[bucket_of(cell_of(place[point]))]++] = {point, place[point]};
   }
 }
 
@@ -126,11 +125,10 @@ void ContactSearch::find_near(int face, std::span<const Vec3> place, Found& foun
   for (int z = first[2]; z <= last[2]; ++z) {
     for (int y = first[1]; y <= last[1]; ++y) {
       for (int x = first[0]; x <= last[0]; ++x) {
-        const Index3 cell{x, y, z};
-        const std::size_t bucket = bucket_of(cell);
+        const std::size_t bucket = bucket_of({x, y, z});  // may hold other cells as well
         for (int k = first_resident_[bucket]; k < first_resident_[bucket + 1]; ++k) {
           const Resident& resident = resident_[k];
-          if (found.marked_by[resident.point] == face || resident.cell != cell) continue;
+          if (found.marked_by[resident.point] == face) continue;
           const double distance = (box.lower - resident.place).cwiseMax(resident.place - box.upper).maxCoeff();
           if (distance <= reach_) {
             found.near.push_back({resident.point, face, distance});
@@ -171,6 +169,7 @@ void ContactSearch::collect(std::span<const Vec3> place) {
   }
   spare_ = beyond - distance_;
   std::ranges::sort(all);
+  all.erase(std::ranges::unique(all).begin(), all.end());
   seekers_.clear();
   near_faces_.clear();
   for (const auto& [point, face, distance] : all) {

@@ -69,7 +69,6 @@ class ContactSearch {
  private:
   struct Resident {
     int point;
-    Index3 cell;
     Vec3 place;
   };
   struct Near {

@@ -88,7 +88,7 @@ class ContactCase : public RunTest, public testing::WithParamInterface<bool> {
     return fluid_at_rest + text;
   }
   void write(const std::string& text) { folder_.write("case.toml", text); }
-  /// Between the middles of the sheets, at its smallest and at the end.
+  /// Between the middles of the sheets [m], at its smallest and at the end.
   std::array<double, 2> distance() {
     run_case(options_);
     const io::CsvTable table = io::read_csv(options_.folder / "history.csv");
@@ -107,13 +107,14 @@ INSTANTIATE_TEST_SUITE_P(Of, ContactCase, testing::Bool(),
 
 TEST_P(ContactCase, keeps_apart_what_is_pushed_together) {
   const auto [smallest, last] = distance();
-  EXPECT_GT(smallest, 0.0);
-  EXPECT_LT(last, 0.02);
+  EXPECT_GT(smallest, 0.015);
+  EXPECT_LT(last, 0.021);
 }
 
+/// The fluid between them, which both see alike, slows them down as well.
 TEST_P(ContactCase, is_what_keeps_them_apart) {
   write(replaced(with_contact(), "[contact]\ngap = 0.02\ndamping = 0.3\n", ""));
-  EXPECT_LT(distance()[0], -0.02);
+  EXPECT_LT(distance()[0], 0.012);
 }
 
 TEST_P(ContactCase, gives_the_same_bits_for_any_number_of_threads_and_after_a_restart) {
@@ -144,8 +145,8 @@ TEST_P(ContactCase, makes_motion_explicit_where_it_may_choose) {
 }
 
 struct Collapse {
-  int crossings = 0;    ///< most at any time
-  double energy = 0.0;  ///< of the bodies at the end [J]
+  int crossings = 0;                 ///< of edges and faces, most at any time
+  double highest = 0.0, last = 0.0;  ///< energy of the bodies [J]
 };
 
 /// The shipped case on cells twice as wide.
@@ -153,7 +154,7 @@ Collapse collapse(bool contact) {
   const CaseFolder folder;
   Case c = read_case(std::filesystem::path(DROGUE_SOURCE_DIR) / "cases/canopies_sinking",
                      {"grid.finest=1/32", "contact.gap=0.024", "body.left.mesh.elements=[10, 10]",
-                      "body.right.mesh.elements=[10, 10]"});
+                      "body.right.mesh.elements=[10, 10]", "time.end=2"});
   if (!contact) c.contact.reset();
   Simulation simulation(c, folder.path());
   std::vector<const fem::Structure*> structures;
@@ -161,23 +162,24 @@ Collapse collapse(bool contact) {
     structures.push_back(&dynamic_cast<CoupledElasticBody&>(*body).structure());
   }
   Collapse collapse;
-  for (int step = 1; simulation.time() < c.end; ++step) {
-    simulation.step();
-    if (step % 16 != 0) continue;
+  while (simulation.time() < c.end) {
+    for (int step = 0; step < 16; ++step) simulation.step();
     collapse.crossings = std::max(collapse.crossings, fem::crossings(structures));
-    double e = 0.0;
-    for (const auto* body : structures) e += body->elastic_energy() + body->kinetic_energy();
-    std::printf("%g %d %g\n", simulation.time(), fem::crossings(structures), e);
-  }
-  for (const fem::Structure* structure : structures) {
-    collapse.energy += structure->elastic_energy() + structure->kinetic_energy();
+    collapse.last = 0.0;
+    for (const fem::Structure* s : structures) collapse.last += s->elastic_energy() + s->kinetic_energy();
+    collapse.highest = std::max(collapse.highest, collapse.last);
   }
   return collapse;
 }
 
 TEST(CanopiesSinking, fold_onto_themselves_and_each_other_without_passing_through) {
-  EXPECT_EQ(collapse(true).crossings, 0);
-  EXPECT_GT(collapse(false).crossings, 20);
+  const Collapse with = collapse(true), without = collapse(false);
+  std::printf("crossings %d, without contact %d; energy at most %.3g, at the end %.2g J\n", with.crossings,
+              without.crossings, with.highest, with.last);
+  EXPECT_EQ(with.crossings, 0);
+  EXPECT_GT(without.crossings, 10);
+  EXPECT_LT(with.highest, 0.1);  // 0.04 J with what they drag at the speed of the stream, 0.06 J by falling 0.6 m
+  EXPECT_LT(with.last, 0.02);
 }
 
 }  // namespace
