@@ -79,7 +79,7 @@ std::vector<double> with_point_masses(std::vector<double> mass, const std::vecto
 }
 
 Inertia every_node_alone(const std::vector<double>& own_mass) {
-  Inertia inertia{{}, own_mass, own_mass};
+  Inertia inertia{{}, own_mass, own_mass, own_mass};
   for (int node = 0; node < static_cast<int>(own_mass.size()); ++node) inertia.point.push_back({node, -1});
   return inertia;
 }
@@ -88,6 +88,10 @@ void check_partition(const Inertia& inertia, std::size_t nodes) {
   if (inertia.mass.size() != inertia.point.size() || inertia.heavy_mass.size() != inertia.point.size()) {
     throw InputError(fmt::format("the inertia has {} points and {} masses, {} of them heavy; expected as many",
                                  inertia.point.size(), inertia.mass.size(), inertia.heavy_mass.size()));
+  }
+  if (inertia.face_mass.size() != nodes) {
+    throw InputError(fmt::format("the inertia has {} masses of faces; expected one of each of {} nodes",
+                                 inertia.face_mass.size(), nodes));
   }
   std::vector<int> uses(nodes, 0);
   for (std::size_t i = 0; i < inertia.point.size(); ++i) {
@@ -101,7 +105,12 @@ void check_partition(const Inertia& inertia, std::size_t nodes) {
           fmt::format("point {} (node {}) has mass {} kg; expected a positive number", i, a, inertia.mass[i]));
     }
     ++uses[a];
-    if (b >= 0) ++uses[b];
+    if (b < 0) continue;
+    if (!(inertia.face_mass[a] > 0.0 && inertia.face_mass[b] > 0.0)) {
+      throw InputError(fmt::format("nodes {} and {} face each other with masses {} and {} kg; expected positive numbers",
+                                   a, b, inertia.face_mass[a], inertia.face_mass[b]));
+    }
+    ++uses[b];
   }
   for (std::size_t node = 0; node < nodes; ++node) {
     if (uses[node] != 1) {
@@ -147,7 +156,6 @@ Structure::Data::Data(Model model)
 }
 
 void Structure::Data::assign_points(Inertia new_inertia) {
-  check_partition(new_inertia, mesh.nodes.size());
   const auto& volume = elements.nodal_volume();
   std::vector<Point> new_points;
   for (std::size_t i = 0; i < new_inertia.point.size(); ++i) {
@@ -162,13 +170,15 @@ void Structure::Data::assign_points(Inertia new_inertia) {
       throw InputError(fmt::format(
           "nodes {} and {} face each other but are not held alike; expected both or neither in a hold", a, b));
     }
-    const double own = own_mass[a] + own_mass[b], reduced = own_mass[a] * own_mass[b] / own;
+    const double face_a = new_inertia.face_mass[a], face_b = new_inertia.face_mass[b];
+    const double share_a = face_a / (face_a + face_b), share_b = face_b / (face_a + face_b);
+    const double own = own_mass[a] * share_b * share_b + own_mass[b] * share_a * share_a;
     new_points.push_back({a,
                           b,
-                          own_mass[a] / own,
-                          own_mass[b] / own,
-                          {mass, own, volume[a] + volume[b]},
-                          {reduced, reduced, volume[a] * volume[b] / (volume[a] + volume[b])},
+                          share_a,
+                          share_b,
+                          {mass, own_mass[a] + own_mass[b], volume[a] + volume[b]},
+                          {face_a * face_b / (face_a + face_b), own, volume[a] * volume[b] / (volume[a] + volume[b])},
                           weight,
                           hold_of_node[a]});
   }
@@ -201,17 +211,20 @@ void Structure::Data::assemble_mass() {
   acceleration.clear();
 }
 
-// The mass that a node has in use is shared among its elements in proportion to their own. A hexahedron strains along
-// its thickness by differences of pairs alone, which keep the own mass, and along its sides by means and by
-// differences. These count there at most half as much (the mode xi zeta has a third of the squared gradient of zeta
-// along xi and a third along zeta), so that a mean lightens the sides down to half.
+// The nodes of a pair are said to have the masses of their difference. A thin hexahedron strains along its thickness by
+// differences alone, and along its sides by means and by differences. These count there at most half as much (the mode
+// xi zeta has a third of the squared gradient of zeta along xi and a third along zeta), so that a mean lightens the
+// sides down to half.
 void Structure::Data::compare_masses() {
   std::vector<int> partner(mesh.nodes.size(), -1);
-  std::vector<double> ratio(mesh.nodes.size());
+  std::vector<double> ratio(mesh.nodes.size(), 1.0);
+  moving_mass.resize(mesh.nodes.size());
   for (const Point& p : points) {
-    ratio[p.a] = p.mean.mass / p.mean.own;
+    moving_mass[p.a] = p.mean.mass;
     if (!p.is_pair()) continue;
-    ratio[p.b] = ratio[p.a];
+    moving_mass[p.a] = inertia.face_mass[p.a];
+    moving_mass[p.b] = inertia.face_mass[p.b];
+    ratio[p.a] = ratio[p.b] = p.mean.mass / (moving_mass[p.a] + moving_mass[p.b]);
     partner[p.a] = p.b;
     partner[p.b] = p.a;
   }
@@ -225,10 +238,8 @@ void Structure::Data::compare_masses() {
         return solid && std::all_of(std::begin(edges), std::end(edges), joins_pair);
       });
       const bool thin = thickness != std::end(hex_edge);
-      double smallest = thin ? 2.0 : INFINITY;
-      for (const int node : nodes) {
-        smallest = std::min({smallest, ratio[node], thin || partner[node] < 0 ? INFINITY : 1.0});
-      }
+      double smallest = thin ? 2.0 : 1.0;
+      for (const int node : nodes) smallest = std::min(smallest, ratio[node]);
       std::array<double, 3> lightness{1.0 / smallest, 1.0 / smallest, 1.0 / smallest};
       if (thin) {
         const int direction = static_cast<int>(thickness - std::begin(hex_edge));
@@ -269,6 +280,7 @@ void Structure::set_state(std::span<const Vec3> position, std::span<const Vec3> 
 }
 
 void Structure::set_inertia(Inertia inertia) {
+  check_partition(inertia, data_->mesh.nodes.size());
   data_->assign_points(std::move(inertia));
   for (const Point& p : data_->points) {
     if (p.is_pair() || std::ranges::none_of(p.hold, [](const Hold* hold) { return hold && hold->hinged; })) continue;

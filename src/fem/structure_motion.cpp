@@ -120,7 +120,7 @@ void Structure::Data::set_time(double time, double share) {
 }
 
 void Structure::Data::estimate_largest_frequency() {
-  largest_frequency = std::sqrt(elements.largest_squared_frequency(x));
+  largest_frequency = std::sqrt(elements.largest_squared_frequency(x, moving_mass));
   if (!contact) return;
   contact->watch(x);
   compute_contact();

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include <Eigen/Eigenvalues>
+#include <algorithm>
 
 #include "core/error.hpp"
 #include "fem/thin_solid.hpp"
@@ -92,11 +93,13 @@ CoupledPoints couple_points(const fem::Structure& structure, ib::Delta delta, do
   return points;
 }
 
-fem::Inertia inertia_of(const fem::Structure& structure, const CoupledPoints& points) {
-  fem::Inertia inertia{points.nodes, points.dragged_mass, points.excess_mass};
+fem::Inertia inertia_of(const fem::Structure& structure, const CoupledPoints& points, double density) {
+  fem::Inertia inertia{points.nodes, points.dragged_mass, points.excess_mass, {}};
   for (int p = 0; p < points.size(); ++p) inertia.mass[p] += points.excess_mass[p];
   for (std::size_t node = 0; node < structure.own_mass().size(); ++node) {
-    if (structure.coupled_volume()[node] > 0.0) continue;
+    const double displaced = density * structure.coupled_volume()[node];
+    inertia.face_mass.push_back(std::max(structure.own_mass()[node], displaced));
+    if (displaced > 0.0) continue;
     inertia.point.push_back({static_cast<int>(node), -1});
     inertia.mass.push_back(structure.own_mass()[node]);
     inertia.heavy_mass.push_back(structure.own_mass()[node]);

@@ -148,7 +148,7 @@ TEST(CoupledPoints, nodes_whose_regions_are_all_uncoupled_meet_no_fluid_and_keep
   // The node they share displaces what the sheet there does, and carries half an element of the line besides.
   const int joint = node_nearest(mesh, Vec3::Zero());
   EXPECT_NEAR(points.excess_mass[joint] - bare.excess_mass[joint], 0.5 * 800.0 * 1e-6 * 0.5 * dx, 1e-15);
-  const fem::Inertia inertia = inertia_of(body, points);
+  const fem::Inertia inertia = inertia_of(body, points, fluid_density);
   ASSERT_EQ(inertia.point.size(), mesh.nodes.size());
   for (std::size_t p = points.size(); p < inertia.point.size(); ++p) {
     const int node = inertia.point[p][0];
