@@ -122,8 +122,8 @@ fem::ActiveStress read_active(Section section) {
 /// Whether a part of the body meets the fluid, if there is one.
 bool read_coupled(Section& section, bool in_flow) {
   return in_flow && section.get<bool>("coupled", {.doc = "whether this part meets the fluid; one that does not may "
-                                                          "leave the finest cells and is not dragged",
-                                                   .fallback = true});
+                                                         "leave the finest cells and is not dragged",
+                                                  .fallback = true});
 }
 
 constexpr const char* active_doc = "active stress, of elements that pull by themselves";
@@ -169,7 +169,8 @@ void read_regions(Section& section, bool in_flow, ElasticBody& body) {
                  body.regions.back().elements = name;
                });
   const bool cables_alone = std::holds_alternative<fem::Mesh>(body.mesh);
-  if ((body.regions.empty() && !cables_alone) || section.describing()) body.regions.push_back(read_region(section, in_flow));
+  if ((body.regions.empty() && !cables_alone) || section.describing())
+    body.regions.push_back(read_region(section, in_flow));
 }
 
 PointDescription read_point(Section& section) {
@@ -317,7 +318,7 @@ void read_loads(Section& section, ElasticBody& body, bool in_flow) {
   }
 }
 
-fem::StructureOptions read_structure(Section& body) {
+fem::StructureOptions read_structure(Section& body, bool in_flow) {
   const Choices<fem::Integrator> integrators{{"explicit", fem::Integrator::explicit_scheme},
                                              {"implicit", fem::Integrator::implicit_scheme},
                                              {"auto", fem::Integrator::cheaper}};
@@ -334,9 +335,10 @@ fem::StructureOptions read_structure(Section& body) {
                                              .fallback = options.spectral_radius,
                                              .range = {.min = 0.0, .max = 1.0}});
   }
-  options.dissipation = body.get<double>("dissipation", {.doc = "numerical, of what the sub-step barely resolves",
-                                                         .fallback = options.dissipation,
-                                                         .range = {.min = 0.0, .max = 0.49}});
+  options.dissipation = body.get<double>(
+      "dissipation", {.doc = "numerical, of what the sub-step barely resolves; may be 0 without a fluid",
+                      .fallback = options.dissipation,
+                      .range = {.min = 0.0, .max = 0.49, .open = in_flow}});
   options.safety = body.get<double>("safety", {.doc = "share of the stable sub-step that is used",
                                                .fallback = options.safety,
                                                .range = {.min = 0.01, .max = 1.0}});
@@ -369,7 +371,7 @@ Body read_elastic(Section& section, const Case& c) {
   section.each("cable", "cables that are added to the mesh",
                [&](Section& cable) { body.cables.push_back(read_cable(cable, in_flow)); });
   read_loads(section, body, in_flow);
-  body.structure = read_structure(section);
+  body.structure = read_structure(section, in_flow);
   section.each("probe", "a displacement to be measured",
                [&](Section& probe) { body.probes.push_back(read_probe(probe)); });
   const double reference_area = in_flow ? read_reference_area(section, area_of(body.mesh)) : 0.0;

@@ -89,8 +89,8 @@ class Elements {
   std::vector<std::unique_ptr<ElementGroup>> groups_;
   std::vector<Faces> faces_;
   std::vector<double> nodal_volume_, coupled_volume_, nodal_mass_;
-  std::vector<int> first_slot_;  ///< of each node in `slot_`, its elements before its faces
-  std::vector<int> first_load_;  ///< the first of a face
+  std::vector<int> first_slot_;      ///< of each node in `slot_`, its elements before its faces
+  std::vector<int> first_load_;      ///< the first of a face
   std::vector<const double*> slot_;  ///< where the elements of a node keep their force on it
   int stiffest_node_ = 0;
   std::atomic<bool> out_of_bounds_ = false;

@@ -26,6 +26,7 @@ struct Inertia {
   std::vector<double> mass;               ///< [kg] of the mean motion
   std::vector<double> heavy_mass;         ///< [kg] on which gravity acts
   std::vector<double> face_mass;          ///< [kg] of every node; read of those in pairs
+  double reset = 1.0;  ///< in (-1, 1]: least factor by which means' velocities are multiplied between advances
 };
 
 enum class Integrator { explicit_scheme, implicit_scheme, cheaper };
@@ -101,7 +102,8 @@ class Structure {
   const std::string& free_motion() const;
   /// What is cheaper by an estimate from counts.
   Equilibrium cheaper_equilibrium() const;
-  int substeps() const;              ///< taken by the last advance, or iterations to the last equilibrium
+  int substeps() const;                       ///< taken by the last advance, or iterations to the last equilibrium
+  double explicit_substeps(double dt) const;  ///< in an explicit advance over `dt` [s] from here
   double stable_step() const;        ///< [s] longest sub-step of the scheme, safety included, for largest_frequency()
   double largest_frequency() const;  ///< [rad/s] upper estimate from the elements as deformed, behind the sub-step
 

@@ -63,6 +63,8 @@ struct Structure::Data {
   void compute_forces(int substep);
   void compute_contact();
   double stable_step() const;
+  /// In `dt` with the `stable` step, and for resets of velocities [s].
+  double explicit_substeps(double dt, double stable) const;
   int substeps_for(double dt, double time);
   void stop_rigidly_held();
   /// A share of the loads of `time` [s] acts from now on.
