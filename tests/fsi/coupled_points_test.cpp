@@ -44,6 +44,17 @@ TEST(CoupledPoints, excess_mass_is_own_mass_less_the_fluid_displaced) {
   EXPECT_NEAR(excess, (3.0 - fluid_density) * 0.25 * 0.01, 1e-12);
 }
 
+TEST(CoupledPoints, a_massless_sheet_is_lifted_by_what_it_displaces_with_which_its_faces_move) {
+  const fem::Structure solid = plate({.density = 0.0});
+  const fem::Inertia inertia = inertia_of(solid, points_of(solid), fluid_density);
+  const auto sum = [](const std::vector<double>& masses) { return std::accumulate(masses.begin(), masses.end(), 0.0); };
+  const double displaced = fluid_density * 0.25 * 0.01, dragged = fluid_density * 0.25 * dx * 8.0 / 3.0;
+  EXPECT_NEAR(sum(inertia.heavy_mass), -displaced, 1e-12);
+  EXPECT_NEAR(sum(inertia.mass), dragged - displaced, 1e-12);
+  EXPECT_NEAR(sum(inertia.face_mass), displaced, 1e-12);
+  EXPECT_NEAR(inertia.reset, -displaced / (dragged - displaced), 1e-9);
+}
+
 TEST(CoupledPoints, a_thick_solid_meets_the_fluid_in_its_nodes_and_drags_at_least_what_it_displaces) {
   const fem::Structure solid = cube(2.0);
   const CoupledPoints points = points_of(solid);
