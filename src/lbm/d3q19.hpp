@@ -89,11 +89,12 @@ struct HermiteSeries {
 template <class Real>
 Vec<Real> population_along(const Row<Real>& line, Real keep, bool third_order, const Index3& c) {
   Vec<Real> v{};
+  const int wanted = amr::neighbour_slot(c[0], c[1], c[2]);
   const auto choose = [&]<class Series, int... slot>(const Series& g, std::integer_sequence<int, slot...>) {
     const auto try_slot = [&]<int s>(std::integral_constant<int, s>) {
       constexpr Index3 o = amr::slot_offset(s);
       if constexpr (in_lattice(o[0], o[1], o[2]))
-        if (c == o) v = g.template population<o[0], o[1], o[2]>();
+        if (s == wanted) v = g.template population<o[0], o[1], o[2]>();
     };
     (try_slot(std::integral_constant<int, slot>{}), ...);
   };
