@@ -67,6 +67,7 @@ matrix() {
   flag 32-step-half 32 32 1 'cells of 1/32, half the time step and Mach number, until 14 s' "$short --set fluid.lattice_velocity=0.05"
   flag 32-rr 32 32 1 'cells of 1/32, recursive regularised collision, until 14 s' "$short --set fluid.collision=\"rr\""
   flag 32-thin 32 32 1 'cells of 1/32, half as thick at the same weight and bending rigidity, until 14 s' "$short --set body.flag.mesh.thickness=0.005 --set body.flag.density=201 --set body.flag.material.young=8064"
+  flag 32-wide 32 32 1 'cells of 1/32, domain of 16 x 12 x 8, until 14 s' "$short --set domain.lower=[-4,-6,-4] --set domain.upper=[12,6,4]"
   flag 32-trilinear 32 32 1 'cells of 1/32, trilinear elements, until 14 s' "$short --set body.flag.element=\"trilinear\""
   flag 32-light 32 32 0.1 'cells of 1/32, mass ratio 0.1, until 14 s' "$short"
   flag 32-massless 32 32 0 'cells of 1/32, mass ratio 0, until 14 s' "$short"

@@ -224,10 +224,9 @@ int Forest::find(int level, Index3 index) const {
 }
 
 std::vector<int> Forest::faces_beyond(int id) const {
-  const Index3 across = blocks_across(block(id).level), &index = block(id).index;
   std::vector<int> faces;
   for (int a = 0; a < 3; ++a)
-    if (index[a] < 0 || index[a] >= across[a]) faces.push_back(2 * a + (index[a] >= 0));
+    if (is_beyond(id, a)) faces.push_back(2 * a + (block(id).index[a] >= 0));
   return faces;
 }
 

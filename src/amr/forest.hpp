@@ -95,6 +95,10 @@ class Forest {
   /// Faces of the domain beyond which a `boundary` block lies, one for each axis at most, ascending: x_min, x_max,
   /// y_min, y_max, z_min, z_max from 0 on.
   std::vector<int> faces_beyond(int id) const;
+  /// Does a block lie beyond the domain along this axis?
+  bool is_beyond(int id, int axis) const {
+    return block(id).index[axis] < 0 || block(id).index[axis] >= blocks_across(block(id).level)[axis];
+  }
 
   /// The leaf and cell that hold a point [m]; nothing outside the domain (periodic axes wrap).
   std::optional<Location> locate(const Vec3& point) const;

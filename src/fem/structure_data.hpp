@@ -46,6 +46,7 @@ struct Structure::Data {
   double reference_step = 0.0;          ///< stable_step() when the inertia was set [s]
   std::vector<Vec3> acceleration;       ///< of each node, of the implicit scheme; empty where unknown [m/s^2]
   NodalMatrix mass_matrix;              ///< of the points, see Inertia [kg]
+  std::vector<double> moving_mass;      ///< of each node, behind the bound of frequencies [kg]
   std::vector<Vec3> nodal_weight;       ///< of each node [N]
 
   std::vector<Vec3> forced_at;  ///< where stiffness-proportional damping takes the forces of the elements [m]
@@ -59,6 +60,8 @@ struct Structure::Data {
   void estimate_largest_frequency();
   void compute_forces();
   double stable_step(const Contact* contact = nullptr) const;
+  /// In `dt` with the `stable` step, and for resets of velocities [s].
+  double explicit_substeps(double dt, double stable) const;
   int substeps_for(double dt, double time, const Contact* contact);
   void stop_rigidly_held();
   /// A share of the loads of `time` [s] acts from now on.

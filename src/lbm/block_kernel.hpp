@@ -30,7 +30,9 @@ class BlockKernel {
         per_keep_(Real(1) / keep_),
         sigma_(static_cast<Real>(relaxation.sigma)),
         strain_factor_((sigma_ - Real(1)) / 3),
-        eddy_factor_(static_cast<Real>(relaxation.eddy_factor)) {}
+        eddy_factor_(static_cast<Real>(relaxation.eddy_factor)),
+        kick_{static_cast<Real>(relaxation.kick[0]), static_cast<Real>(relaxation.kick[1]),
+              static_cast<Real>(relaxation.kick[2])} {}
 
   BlockRecord run() {
     build_edge_columns();
@@ -219,8 +221,16 @@ class BlockKernel {
     r.m = moments_of<V>(Streamed{slot<0>(y, z), slot<1>(y, z), slot<-1>(y, z)});
     watch(r);
     if constexpr (collision == fluid::Collision::hrr) hybrid.apply(r);
-    Layout::store_row_streaming(blocks_.target + (z * n + y) * Layout::bytes, r);
+    for (int a = 0; a < 3; ++a) r.m[ux + a] += kick_[a];
+    store_target(blocks_.target + (z * n + y) * Layout::bytes, r);
     publish(r, y, z);
+  }
+
+  void store_target(std::byte* to, const Row<Real>& r) const {
+    if (blocks_.past_caches)
+      Layout::store_row_streaming(to, r);
+    else
+      Layout::store_row(to, r);
   }
 
   /// The hybrid term: Pneq <- kept Pneq + rho estimate.
@@ -279,7 +289,7 @@ class BlockKernel {
     for (int side = 0; side < 2; ++side) {
       Row<Real> column;
       for (int m = 0; m < moments; ++m) column.m[m] = load<Real>(published_[side][m]);
-      Layout::store_row_streaming(blocks_.target_columns + (side * n + z) * Layout::bytes, column);
+      store_target(blocks_.target_columns + (side * n + z) * Layout::bytes, column);
     }
   }
 
@@ -302,6 +312,7 @@ class BlockKernel {
 
   const BlockNeighbourhood<S>& blocks_;
   const Real tau_, keep_, per_keep_, sigma_, strain_factor_, eddy_factor_;
+  const std::array<Real, 3> kick_;
   V max_speed_{};
   IndexVec<Real> in_bounds_ = IndexVec<Real>{} - 1;
   alignas(sizeof(V)) Real edge_[2][2][lanes];             // [x side][y side][z]

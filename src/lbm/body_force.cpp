@@ -18,34 +18,19 @@ Vec3 BasicSolver<S>::half_kick(int level, double time) const {
 }
 
 template <class S>
-void BasicSolver<S>::accelerate(int level) {
-  using Layout = RowLayout<S>;
+void BasicSolver<S>::set_kick(int level, double time) {
   Level& l = levels_[level];
-  l.lead = half_kick(level, l.time + l.dt);
-  std::array<Real, 3> kick;
-  for (int a = 0; a < 3; ++a) kick[a] = static_cast<Real>(2.0 * l.lead[a]);
-  MomentField<S>& field = field_[1 - l.now];
-  const auto leaves = forest_.range(level, amr::Kind::leaf);
-#pragma omp parallel for schedule(static)
-  for (int id = leaves.begin; id < leaves.end; ++id) {
-    for (int r = 0; r < rows_per_block; ++r) {
-      std::byte* row = field.block(id) + r * Layout::bytes;
-      for (int a = 0; a < 3; ++a) {
-        Real* u = Layout::macro(row, ux + a);
-        store(u, load(u) + kick[a]);
-      }
-      field.velocity_to_columns(id, r % lanes, r / lanes);
-    }
-  }
+  l.lead = half_kick(level, time);
+  l.relaxation.kick = 2.0 * l.lead;
 }
 
 #ifdef __F16C__
 template Vec3 BasicSolver<HalfStress>::half_kick(int, double) const;
-template void BasicSolver<HalfStress>::accelerate(int);
+template void BasicSolver<HalfStress>::set_kick(int, double);
 #endif
 template Vec3 BasicSolver<FloatStress>::half_kick(int, double) const;
-template void BasicSolver<FloatStress>::accelerate(int);
+template void BasicSolver<FloatStress>::set_kick(int, double);
 template Vec3 BasicSolver<DoubleStress>::half_kick(int, double) const;
-template void BasicSolver<DoubleStress>::accelerate(int);
+template void BasicSolver<DoubleStress>::set_kick(int, double);
 
 }  // namespace drogue::lbm

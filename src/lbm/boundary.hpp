@@ -6,11 +6,13 @@
 // Open faces let sound out (lbm/radiation.hpp) or, if they are said to reflect it,
 //   velocity    u -> 2 u_face - u
 //   outlet      u kept, p -> 2 p_face - p
-// drho and Pneq are kept where nothing else is said. Cells beyond two or three faces are mirrored once per face, walls
-// last; in an edge between two faces that fix the velocity only once, which is what bounce-back does to the population
-// that crosses the edge. At the edges of no-slip walls the images make a little mass, which is taken away again.
+// drho and Pneq are kept where nothing else is said. Cells beyond two faces are mirrored once per face, walls last; in
+// an edge between two faces that fix the velocity only once, which is what bounce-back does to the population that
+// crosses the edge. No population crosses a corner. At the edges of no-slip walls the images make a little mass, which
+// is taken away again.
 #pragma once
 
+#include <array>
 #include <vector>
 
 #include "core/archive.hpp"
@@ -42,35 +44,48 @@ class BoundaryFill {
 
  private:
   using Real = typename S::Real;
+  using Velocity = std::array<Vec<Real>, 3>;  // of a line, lattice units
+  using Memory = std::array<FaceMemory<Real>, amr::block_size>;
+  /// Where the first line of some lies in a block, for MomentField::load_line().
+  struct Place {
+    int block;
+    Index3 first;
+    bool in_columns;
+  };
+  /// The lines of one block that are images in one face: 16 next to it, or the one in an edge between two faces.
   struct Item {
-    int target, source, axis, face;
+    Place from, to;
+    int along, across, count;  // axes along and across the lines
+    int face;
     int table;         // of velocities; -1 where one value does
     int memory;        // of an open face; -1 if it has none
-    bool beyond_wall;  // the source is already the image in another wall
+    bool beyond_wall;  // `from` is already the image in another wall
+    Velocity velocity;
+    Real density;         // beyond an outlet
+    OpenFace<Real> open;  // if `memory` is there
   };
-  struct WallEdge {  // between two walls, at least one without slip
-    int target;
-    std::array<Index3, 2> outward;  // directions of the walls
+  /// A line of cells, and which of its populations crosses an edge.
+  struct Sender {
+    Place place;
+    Index3 direction;
   };
-  using VelocityTable = std::vector<std::array<Vec<Real>, 3>>;   // per line of the layer, lattice units
-  using Memory = std::array<FaceMemory<Real>, amr::block_size>;  // per line of the layer
+  struct WallEdge {  // between two walls o and p, at least one without slip
+    int along;
+    std::array<Sender, 4> sender;  // beyond neither, p, o, both
+  };
 
   void add(int level, int id);
   void add_wall_edge(int level, int id, const std::vector<int>& faces);
+  Item item_at(int id, const std::vector<int>& faces) const;
   void update_table(const Item& item, double time);
-  static Row<Real> load_layer(const std::byte* block, const Item& item, int depth, int line);
-  static void store_layer(std::byte* block, const Item& item, int depth, int line, const Row<Real>& r);
-  Row<Real> beyond(const Item& item, const Row<Real>& inside, int line, double ramp);
-  std::array<Vec<Real>, 3> face_velocity(const Item& item, int line, double ramp) const;
-  Real far_density(const Item& item) const;
-  OpenFace<Real> open_face(const Item& item) const;
+  Row<Real> beyond(const Item& item, const Row<Real>& inside, int line, Real ramp);
 
   const amr::Forest& forest_;
   const fluid::Specification& specification_;
   const Units units_;
-  std::vector<std::vector<std::vector<Item>>> items_;  // [level][faces beyond which the block lies - 1]
-  std::vector<std::vector<WallEdge>> edges_;           // [level]
-  std::vector<VelocityTable> tables_;
+  std::vector<std::array<std::vector<Item>, 2>> items_;  // [level][faces beyond which the block lies - 1]
+  std::vector<std::vector<WallEdge>> edges_;             // [level]
+  std::vector<std::array<Velocity, amr::block_size>> tables_;
   std::vector<Memory> memories_;
 };
 

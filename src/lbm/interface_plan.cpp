@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "lbm/level_transfer.hpp"
 #include "lbm/lines.hpp"
 
 namespace drogue::lbm {
@@ -103,7 +104,9 @@ std::vector<DiagonalTerm> diagonal_terms(const amr::Forest& forest, int level, c
       for (int signs = 0; signs < 4; ++signs) {
         const Index3 f = unit((along + 1) % 3, signs & 1 ? 1 : -1), g = unit((along + 2) % 3, signs & 2 ? 1 : -1);
         const int weight = interface.weight(id, f, g);
-        if (weight != 0) terms.push_back({id, along, weight, edge_line(f, g), f + g});
+        if (weight == 0) continue;
+        const Index3 first = edge_line(f, g);
+        terms.push_back({id, along, weight, first, f + g, is_in_columns(forest, id, first, along)});
       }
   return terms;
 }

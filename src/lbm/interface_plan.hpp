@@ -25,6 +25,7 @@ struct InterfaceFace {
 struct DiagonalTerm {
   int block, along, weight;
   Index3 first, direction;
+  bool in_columns;  ///< MomentField::load_line()
 };
 
 /// What crosses between two levels, as one of them sees it.

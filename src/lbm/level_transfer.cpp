@@ -141,12 +141,13 @@ class BlockSums {
   /// its pair; `none` if it reads nothing there.
   int add(int block, int normal, int rule, int output, int part, const Range& lines) {
     const Axis axis = axis_of_rule(rule);
-    LayerSum sum{normal, 0, 0, {}};
+    LayerSum sum{normal, 0, 0, {}, {}};
     for (int k = 0; k < axis.taps; ++k) {
       const int layer = axis.start[output] + k;
       if (layer / n != part) continue;
       if (sum.taps == 0) sum.first = layer % n;
-      sum.weight[sum.taps++] = axis.weight[output][k];
+      sum.weight[sum.taps] = axis.weight[output][k];
+      sum.curvature[sum.taps++] = axis.curvature[output][k];
     }
     if (sum.taps == 0) return amr::none;
     const auto [known, is_new] = number_.try_emplace({block, normal, rule, part}, static_cast<int>(sum_.size()));
@@ -246,6 +247,30 @@ RestrictionPlan plan_restriction(const amr::Forest& forest, int level) {
         faces.push_back({face, copy});
       }
   return plan;
+}
+
+bool is_in_columns(const amr::Forest& forest, int id, const Index3& first, int along) {
+  const auto [x, y, z] = first;
+  if (along == 0 || (x != 0 && x != n - 1)) return false;
+  if (forest.block(id).kind == amr::Kind::boundary) return forest.is_beyond(id, 0);
+  return along == 1 || !edge_is_in_rows(forest, id, {x ? 1 : -1, y ? 1 : -1, 0});
+}
+
+std::vector<std::uint32_t> columns_beside(const amr::Forest& forest) {
+  std::vector<std::uint32_t> beside(forest.size(), 0);
+  for (int level = 0; level < forest.levels(); ++level) {
+    const auto leaves = forest.range(level, amr::Kind::leaf);
+    for (int id = leaves.begin; id < leaves.end; ++id)
+      for (int slot = 0; slot < 27; ++slot) {
+        const Index3 o = amr::slot_offset(slot);
+        if (o[0] == 0) continue;
+        Index3 first;
+        for (int a = 0; a < 3; ++a) first[a] = o[a] < 0 ? n - 1 : 0;
+        const int along = o[1] != 0 && o[2] == 0 ? 2 : 1;
+        if (is_in_columns(forest, forest.block(id).neighbour[slot], first, along)) beside[id] |= 1u << slot;
+      }
+  }
+  return beside;
 }
 
 bool edge_is_in_rows(const amr::Forest& forest, int id, const Index3& towards) {

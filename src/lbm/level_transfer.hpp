@@ -3,6 +3,7 @@
 // own level.
 #pragma once
 
+#include <cstdint>
 #include <vector>
 
 #include "lbm/interpolation.hpp"
@@ -19,6 +20,13 @@ InterpolationPlan plan_interpolation(const amr::Forest& forest, int level);
 /// Rows and columns as above; x faces are also written as rows where the interpolation of a y or z face reads across
 /// them (concave edges of the fine region), and y faces as columns where that of an x face does.
 RestrictionPlan plan_restriction(const amr::Forest& forest, int level);
+
+/// Whether the line of 16 cells of a block from `first` along an axis, which its neighbour beyond a face or edge
+/// streams from, is kept in columns.
+bool is_in_columns(const amr::Forest& forest, int id, const Index3& first, int along);
+
+/// Of every leaf, which neighbours beside it along x it streams from in columns; bits by amr::neighbour_slot.
+std::vector<std::uint32_t> columns_beside(const amr::Forest& forest);
 
 /// Whether the rim of a ghost or parent along the edge towards an offset in x and y is to be found in rows: where a y
 /// face alone brings it about.

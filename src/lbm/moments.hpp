@@ -207,7 +207,8 @@ struct RowLayout {
 /// along y, [x face][z][moment][y]: a neighbour that needs them would else touch every cache line of the block, because
 /// a row lies along x. `deep` blocks, which are interpolated across an x face, keep the next layer as well.
 /// Who changes such a cell of a leaf calls add(), refresh_columns() or velocity_to_columns(). Of ghosts and parents the
-/// rims at the x faces exist as columns alone, unless level_transfer.hpp says otherwise.
+/// rims at the x faces exist as columns alone, unless level_transfer.hpp says otherwise; of what lies beyond the x
+/// faces of the domain columns are all there is.
 template <class S>
 class MomentField {
  public:
@@ -247,6 +248,22 @@ class MomentField {
   const std::byte* line(int id, int normal, int layer, int across) const {
     if (normal == 0) return column(id, layer, across);
     return normal == 1 ? row(id, layer, across) : row(id, across, layer);
+  }
+
+  /// The 16 cells from `first` along x, y or z, its component there being 0: from the rows, or from the columns, of
+  /// which there are lines along y and z.
+  Row<Real> load_line(int id, const Index3& first, int along, bool in_columns) const {
+    if (!in_columns) return Layout::load_line(block(id), first, along);
+    const auto [x, y, z] = first;
+    return along == 1 ? Layout::load_row(column(id, x, z)) : Layout::load_column(column(id, x, 0), y, 0, 1);
+  }
+
+  /// The same of a row, or of columns.
+  void store_line(int id, const Index3& first, int along, const Row<Real>& line) {
+    const auto [x, y, z] = first;
+    if (along == 0) return Layout::store_row(row(id, y, z), line);
+    if (along == 1) return Layout::store_row(column(id, x, z), line);
+    Layout::store_column(column(id, x, 0), y, 0, 1, line);
   }
 
   /// Adds to density or velocity of one cell of a leaf; returns by how much it changed, which rounding decides.

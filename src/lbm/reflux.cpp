@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "lbm/d3q19.hpp"
-#include "lbm/level_transfer.hpp"
+#include "lbm/lines.hpp"
 
 namespace drogue::lbm {
 namespace {
@@ -94,15 +94,7 @@ auto Crossing<S>::through(const MomentField<S>& field, const InterfaceFace& face
 
 template <class S>
 auto Crossing<S>::entering(const MomentField<S>& field, const DiagonalTerm& term, Real keep) const -> Vec<Real> {
-  using Layout = RowLayout<S>;
-  const auto [x, y, z] = term.first;
-  // at its x faces the columns of a block are up to date, its rows need not be; beyond the domain there are rows only
-  const bool in_column = term.along != 0 && (x == 0 || x == n - 1) &&
-                         forest_.block(term.block).kind != amr::Kind::boundary &&
-                         (term.along == 1 || !edge_is_in_rows(forest_, term.block, {x ? 1 : -1, y ? 1 : -1, 0}));
-  const Row<Real> cells = !in_column        ? Layout::load_line(field.block(term.block), term.first, term.along)
-                          : term.along == 1 ? Layout::load_row(field.column(term.block, x, z))
-                                            : Layout::load_column(field.column(term.block, x, 0), y, 0, 1);
+  const Row<Real> cells = field.load_line(term.block, term.first, term.along, term.in_columns);
   return static_cast<Real>(term.weight) * population_along(cells, keep, third_order_, term.direction);
 }
 

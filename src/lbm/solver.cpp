@@ -12,6 +12,8 @@ namespace drogue::lbm {
 namespace {
 
 constexpr int n = amr::block_size;
+/// A level of so many leaves, 7 MB in both fields, finds in a cache what its last step has stored (docs/benchmarks.md).
+constexpr int blocks_in_cache = 32;
 constexpr double sound_speed_squared = 1.0 / 3.0;  // cells^2 per step^2
 
 Units units_of(const fluid::Specification& s) {
@@ -20,6 +22,9 @@ Units units_of(const fluid::Specification& s) {
 }
 
 double relaxation_time(double lattice_viscosity) { return 0.5 + lattice_viscosity / sound_speed_squared; }
+
+/// beta of Pneq = P + beta lap P, in cells squared. A fluid in which it would be large needs no correction.
+double stress_defect(double tau) { return 1.0 / 6.0 + 0.5 * (std::min(tau, 1.0) - 1.0); }
 
 bool is_forced(const fluid::Specification& s) {
   return std::ranges::any_of(s.force,
@@ -45,6 +50,7 @@ BasicSolver<S>::BasicSolver(amr::Forest forest, fluid::Specification specificati
       specification_(std::move(specification)),
       units_(units_of(specification_)),
       field_(fields_for<S>(forest_)),
+      in_columns_(columns_beside(forest_)),
       fill_boundary_(forest_, specification_, units_),
       forced_(is_forced(specification_)),
       force_(forest_),
@@ -56,13 +62,16 @@ BasicSolver<S>::BasicSolver(amr::Forest forest, fluid::Specification specificati
     const double dx = forest_.spacing(level);
     l.dt = dx / units_.velocity;
     l.relaxation = {relaxation_time(specification_.viscosity * l.dt / (dx * dx)), specification_.hrr_sigma,
-                    eddy_factor(specification_)};
+                    eddy_factor(specification_), Vec3::Zero()};
+  }
+  for (int level = 0; level < forest_.levels(); ++level) {
+    Level& l = levels_[level];
     if (level > 0) l.to_parents = plan_restriction(forest_, level);
     if (level < forest_.finest()) {
-      interpolation_.emplace_back(forest_, level + 1);
+      interpolation_.emplace_back(forest_, level + 1, stress_curvature(level, level + 1));
       reflux_.emplace_back(forest_, specification_, level);
     }
-    if (forced_) l.lead = half_kick(level, 0.0);
+    if (forced_) set_kick(level, 0.0);
     build_sponge(level);
   }
   initialise();
@@ -79,9 +88,9 @@ void BasicSolver<S>::advance(int level, fluid::FineStepHook* hook) {
   Level& l = levels_[level];
   if (level < forest_.finest()) reflux_[level].settle(field_[l.now]);
   fill_boundary_(level, l.time, field_[l.now]);
+  if (forced_) set_kick(level, l.time + l.dt);
   stream_and_collide(level);
   fill_boundary_.balance(level, 1.0 - 1.0 / l.relaxation.tau, field_[l.now], field_[1 - l.now]);
-  if (forced_) accelerate(level);
   apply_sponge(level);
   if (level < forest_.finest())
     advance_twice(level + 1, hook);
@@ -98,10 +107,10 @@ void BasicSolver<S>::advance_twice(int level, fluid::FineStepHook* hook) {
   const Level &fine = levels_[level], &coarse = levels_[level - 1];
   Interpolation<S>& interpolation = interpolation_[level - 1];
   MomentField<S>& coarse_end = field_[1 - coarse.now];
-  interpolation.fill_rims(conversion(level - 1, level), field_[fine.now]);
+  interpolation.fill_rims(conversion(level - 1, level, fine.time), field_[fine.now]);
   advance(level, hook);
   interpolation.take_half_way(coarse_end);
-  interpolation.fill_rims(conversion(level - 1, level), field_[fine.now]);
+  interpolation.fill_rims(conversion(level - 1, level, fine.time), field_[fine.now]);
   advance(level, hook);
   interpolation.take_end(coarse_end);
 }
@@ -112,26 +121,27 @@ void BasicSolver<S>::stream_and_collide(int level) {
   const auto leaves = forest_.range(level, amr::Kind::leaf);
   float max_speed_squared = 0.0f;
   bool diverged = false;
-  const bool restricts = level > 0 && !forced_;  // a body force has yet to change all leaves: restrict_changed()
+  const Conversion to_parents = level > 0 ? conversion(level, level - 1, l.time + l.dt) : Conversion{};
 #pragma omp parallel reduction(max : max_speed_squared) reduction(|| : diverged)
   {
-    const auto restriction = std::make_unique<Restriction<S>>(forest_);
+    const auto restriction =
+        std::make_unique<Restriction<S>>(forest_, level > 0 ? stress_curvature(level, level - 1) : 0.0);
     const auto sums = std::make_unique_for_overwrite<LayerSums<S>>();
 #pragma omp for schedule(static)
     for (int id = leaves.begin; id < leaves.end; ++id) {
       BlockNeighbourhood<S> blocks = neighbourhood(id, l.now);
       const BlockNeighbourhood<S> next = neighbourhood(std::min(id + 1, leaves.end - 1), l.now);
       blocks.next = &next;
+      blocks.past_caches = leaves.size() > blocks_in_cache;
       sums->begin();
-      if (restricts) restriction->request((*l.to_parents)[id], *sums);
-      if (level < forest_.finest() && !forced_) interpolation_[level].request(id, *sums);
+      if (level > 0) restriction->request((*l.to_parents)[id], *sums);
+      if (level < forest_.finest()) interpolation_[level].request(id, *sums);
       if (!sums->empty()) blocks.sums = sums.get();
       if (level > 0) reflux_[level - 1].of_fine().count(id, field_[l.now], l.relaxation);
       if (level < forest_.finest()) reflux_[level].of_coarse().count(id, field_[l.now], l.relaxation);
       const BlockRecord record = update_(blocks, l.relaxation);
       sums->finish();
-      if (restricts)
-        restriction->write(id, (*l.to_parents)[id], conversion(level, level - 1), field_[1 - levels_[level - 1].now]);
+      if (level > 0) restriction->write(id, (*l.to_parents)[id], to_parents, field_[1 - levels_[level - 1].now]);
       field_[1 - l.now].forget_changes(id);
       max_speed_squared = std::max(max_speed_squared, record.max_speed_squared);
       diverged = diverged || record.diverged;
@@ -152,10 +162,7 @@ BlockNeighbourhood<S> BasicSolver<S>::neighbourhood(int block, int from) {
   for (int slot = 0; slot < 27; ++slot) {
     const int id = forest_.block(block).neighbour[slot];
     blocks.source[slot] = field_[from].block(id);
-    const Index3 o = amr::slot_offset(slot);
-    const bool in_rows = forest_.block(id).kind == amr::Kind::boundary ||
-                         (o[0] != 0 && o[1] != 0 && o[2] == 0 && edge_is_in_rows(forest_, id, {-o[0], -o[1], 0}));
-    blocks.columns[slot] = in_rows ? nullptr : field_[from].columns(id);
+    blocks.columns[slot] = in_columns_[block] >> slot & 1 ? field_[from].columns(id) : nullptr;
   }
   MomentField<S>& target = field_[1 - from];
   blocks.target = target.block(block);
@@ -195,9 +202,10 @@ void BasicSolver<S>::restrict_changed(int level, MomentField<S>& coarse) {
   }
   if (changed.empty()) return;
   const int count = static_cast<int>(changed.size());
+  const Conversion to_parents = conversion(level, level - 1, levels_[level].time);
 #pragma omp parallel
   {
-    const auto restriction = std::make_unique<Restriction<S>>(forest_);
+    const auto restriction = std::make_unique<Restriction<S>>(forest_, stress_curvature(level, level - 1));
     const auto sums = std::make_unique_for_overwrite<LayerSums<S>>();
 #pragma omp for schedule(dynamic, 4)
     for (int i = 0; i < count; ++i) {
@@ -205,7 +213,7 @@ void BasicSolver<S>::restrict_changed(int level, MomentField<S>& coarse) {
       sums->begin();
       restriction->request(plan[id], *sums);
       sums->sum(fine.block(id));
-      restriction->write(id, plan[id], conversion(level, level - 1), coarse);
+      restriction->write(id, plan[id], to_parents, coarse);
     }
   }
 }
@@ -220,14 +228,19 @@ void BasicSolver<S>::join_levels() {
   }
 }
 
-/// Pneq = -2 rho c_s^2 tau S dt: per step of each level, so it scales with tau dt. Levels meet at the time of the
-/// finer.
+/// Pneq = -2 rho c_s^2 tau S dt: per step of each level, so it scales with tau dt.
 template <class S>
-Conversion BasicSolver<S>::conversion(int from, int to) const {
+Conversion BasicSolver<S>::conversion(int from, int to, double time) const {
   Conversion result{tau(to) * levels_[to].dt / (tau(from) * levels_[from].dt)};
-  const double time = levels_[std::max(from, to)].time;
   if (forced_) result.velocity_shift = half_kick(to, time) - half_kick(from, time);
   return result;
+}
+
+/// What the second-order parts of Pneq differ by, in cells of `from` squared: see docs/theory.md, Levels.
+template <class S>
+double BasicSolver<S>::stress_curvature(int from, int to) const {
+  const double ratio = forest_.spacing(to) / forest_.spacing(from);
+  return ratio * ratio * stress_defect(tau(to)) - stress_defect(tau(from));
 }
 
 template <class S>
@@ -284,96 +297,6 @@ void BasicSolver<S>::report_divergence(int level) const {
                      l.time + l.dt, level, id, at, forest_.cell_centre(id, at));
     }
   throw Diverged("the fluid diverged on level " + std::to_string(level));
-}
-
-template <class S>
-void BasicSolver<S>::read_block(int block, fluid::BlockFields& fields) const {
-  using Layout = RowLayout<S>;
-  const amr::Block& b = forest_.block(block);
-  if (b.kind == amr::Kind::parent) {
-    constexpr int half = n / 2;
-    const auto average = [](const auto& from, auto& to, int octant) {
-      const Index3 base{octant & 1, octant >> 1 & 1, octant >> 2};
-      for (int z = 0; z < half; ++z)
-        for (int y = 0; y < half; ++y)
-          for (int x = 0; x < half; ++x) {
-            float sum = 0.0f;
-            for (int i = 0; i < 8; ++i)
-              sum += from[((2 * z + (i >> 2)) * n + 2 * y + (i >> 1 & 1)) * n + 2 * x + (i & 1)];
-            to[((z + half * base[2]) * n + y + half * base[1]) * n + x + half * base[0]] = sum / 8.0f;
-          }
-    };
-    const auto child = std::make_unique<fluid::BlockFields>();
-    for (int octant = 0; octant < 8; ++octant) {
-      read_block(b.child[octant], *child);
-      for (int a = 0; a < 3; ++a) average(child->velocity[a], fields.velocity[a], octant);
-      average(child->pressure, fields.pressure, octant);
-    }
-    return;
-  }
-  const Real velocity = static_cast<Real>(units_.velocity), pressure = static_cast<Real>(units_.pressure);
-  std::array<Real, 3> lead;
-  for (int a = 0; a < 3; ++a) lead[a] = static_cast<Real>(levels_[b.level].lead[a]);
-  for (int r = 0; r < rows_per_block; ++r) {
-    const std::byte* row = field_[levels_[b.level].now].block(block) + r * Layout::bytes;
-    for (int x = 0; x < n; ++x) {
-      fields.pressure[r * n + x] = static_cast<float>(pressure * Layout::macro(row, drho)[x]);
-      for (int a = 0; a < 3; ++a)
-        fields.velocity[a][r * n + x] = static_cast<float>(velocity * (Layout::macro(row, ux + a)[x] - lead[a]));
-    }
-  }
-}
-
-template <class S>
-std::array<double, 4> BasicSolver<S>::mass_and_momentum() const {
-  using Layout = RowLayout<S>;
-  std::array<double, 4> total{};
-  for (int level = 0; level < forest_.levels(); ++level) {
-    const auto leaves = forest_.range(level, amr::Kind::leaf);
-    std::vector<std::array<double, 4>> part(leaves.size());
-#pragma omp parallel for schedule(static)
-    for (int id = leaves.begin; id < leaves.end; ++id) {
-      std::array<double, 4> sum{};
-      for (int r = 0; r < rows_per_block; ++r) {
-        const std::byte* row = field_[levels_[level].now].block(id) + r * Layout::bytes;
-        for (int x = 0; x < n; ++x) {
-          const double rho = 1.0 + double{Layout::macro(row, drho)[x]};
-          sum[0] += rho;
-          for (int a = 0; a < 3; ++a) sum[1 + a] += rho * (Layout::macro(row, ux + a)[x] - levels_[level].lead[a]);
-        }
-      }
-      part[id - leaves.begin] = sum;
-    }
-    const double cell_mass = specification_.density * std::pow(forest_.spacing(level), 3);
-    if (level < forest_.finest()) total[0] += cell_mass * reflux_[level].owed();
-    for (const auto& p : part) {
-      total[0] += cell_mass * p[0];
-      for (int a = 0; a < 3; ++a) total[1 + a] += cell_mass * units_.velocity * p[1 + a];
-    }
-  }
-  return total;
-}
-
-/// The present of leaves and parents; everything else is filled from it in the course of a step.
-template <class S>
-void BasicSolver<S>::transfer_state(Archive& archive) {
-  for (int level = 0; level < forest_.levels(); ++level) {
-    Level& l = levels_[level];
-    MomentField<S>& field = field_[l.now];
-    const auto leaves = forest_.range(level, amr::Kind::leaf), parents = forest_.range(level, amr::Kind::parent);
-    const std::size_t bytes = (parents.end - leaves.begin) * RowLayout<S>::block_bytes;
-    const std::string name = "level" + std::to_string(level);
-    archive.transfer(name + "/time", l.time);
-    archive.transfer(name + "/moments", std::span(field.block(leaves.begin), bytes));
-    for (int id = leaves.begin; id < leaves.end; ++id) field.refresh_columns(id);
-    if (forced_) l.lead = half_kick(level, l.time);
-    if (level < forest_.finest()) archive.transfer(name + "/interface", reflux_[level]);
-  }
-  join_levels();
-  archive.transfer("boundaries", fill_boundary_);
-  archive.transfer("cell_updates", statistics_.cell_updates);
-  archive.transfer("max_mach", statistics_.max_mach);
-  archive.transfer("max_speed", statistics_.max_speed);
 }
 
 std::unique_ptr<fluid::FluidSolver> make_solver(amr::Forest forest, const fluid::Specification& specification) {

@@ -7,6 +7,7 @@
 // On the finest level the hook sees the velocity after each step and returns a force, u += kappa f.
 #pragma once
 
+#include <cstdint>
 #include <memory>
 #include <optional>
 #include <vector>
@@ -75,18 +76,20 @@ class BasicSolver : public fluid::FluidSolver {
   void restrict_changed(int level, MomentField<S>& coarse);
   void join_levels();
   Vec3 half_kick(int level, double time) const;
-  void accelerate(int level);
+  void set_kick(int level, double time);
   void apply_sponge(int level);
   void couple(fluid::FineStepHook& hook);
   [[noreturn]] void report_divergence(int level) const;
   BlockNeighbourhood<S> neighbourhood(int block, int from);
-  Conversion conversion(int from, int to) const;
+  Conversion conversion(int from, int to, double time) const;
+  double stress_curvature(int from, int to) const;
 
   amr::Forest forest_;
   fluid::Specification specification_;
   Units units_;
   std::vector<Level> levels_;
   std::array<MomentField<S>, 2> field_;
+  std::vector<std::uint32_t> in_columns_;  // columns_beside()
   BoundaryFill<S> fill_boundary_;
   bool forced_;                                  // by a body force
   std::vector<Interpolation<S>> interpolation_;  // by the coarser level of an interface

@@ -12,10 +12,11 @@ namespace drogue::lbm {
 
 /// Collision constants of a level.
 struct Relaxation {
-  double tau;          ///< relaxation time in steps
-  double sigma;        ///< hybrid recursive regularised: share of Pneq after streaming, the rest of
-                       ///< sigma Pneq - (1 - sigma) 2/3 rho tau S being its finite-difference estimate
-  double eddy_factor;  ///< of eddy_viscosity()
+  double tau;                ///< relaxation time in steps
+  double sigma;              ///< hybrid recursive regularised: share of Pneq after streaming, the rest of
+                             ///< sigma Pneq - (1 - sigma) 2/3 rho tau S being its finite-difference estimate
+  double eddy_factor;        ///< of eddy_viscosity()
+  Vec3 kick = Vec3::Zero();  ///< added to the velocity after the step (lbm/body_force.cpp)
 };
 
 /// With an eddy viscosity the stress is stored divided by 1 - 1/tau (see BlockKernel::regularise), which must stay away
@@ -33,10 +34,12 @@ struct BlockRecord {
 
 template <class S>
 struct BlockNeighbourhood {
-  std::array<const std::byte*, 27> source;   ///< by amr::neighbour_slot; the rims that face the block must be filled
-  std::array<const std::byte*, 27> columns;  ///< MomentField::columns of them, or null: then rows are read
+  std::array<const std::byte*, 27> source;  ///< by amr::neighbour_slot; the rims that face the block must be filled
+  std::array<const std::byte*, 27>
+      columns;  ///< MomentField::columns of those beside it along x, or null: then rows are read
   std::byte *target, *target_columns;
   LayerSums<S>* sums = nullptr;              ///< to be given the rows after the step, or null
+  bool past_caches = true;                   ///< is the target stored past the caches?
   const BlockNeighbourhood* next = nullptr;  ///< the block after this one, whose rows are prefetched meanwhile
 };
 
