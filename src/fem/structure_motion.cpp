@@ -221,7 +221,7 @@ void Structure::Data::advance_explicitly(std::span<Data* const> structures, Cont
   int done = 0;
 #pragma omp parallel num_threads(threads)
   for (int n = 0; n < substeps; ++n) {
-    if (contact && n % interval == 0) contact->watch();
+    if (contact && n > 0 && n % interval == 0) contact->watch();
     for (Data* d : structures) {
       if (d->loads_vary) {
 #pragma omp single
@@ -230,7 +230,7 @@ void Structure::Data::advance_explicitly(std::span<Data* const> structures, Cont
       d->compute_forces();
     }
     if (std::ranges::any_of(structures, is_torn)) break;
-    if (contact) contact->compute_forces();
+    if (contact && n > 0) contact->compute_forces();  // those of the first sub-step are known
 #pragma omp single nowait
     done = n + 1;
     for (std::size_t s = 0; s < structures.size(); ++s) {
