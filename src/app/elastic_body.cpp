@@ -160,7 +160,6 @@ double CoupledElasticBody::structure_seconds() const {
 
 std::string CoupledElasticBody::report(const Case& c) const {
   const fem::Structure& s = structure_;
-  const double stable = s.stable_step();
   const double step = structure_step(c);
   std::string text = fmt::format("body    {}: {} nodes, {} elements, mass {:.4g} kg", description.name,
                                  s.mesh().nodes.size(), s.elements(), sum(s.own_mass()));
@@ -169,7 +168,7 @@ std::string CoupledElasticBody::report(const Case& c) const {
                         sum(s.inertia().mass));
   }
   text += fmt::format("\n        {}; stable explicit step {:.3g} s, {:.0f} sub-steps in a {} of {:.3g} s\n", solver(),
-                      stable, std::ceil(step / stable), coupling_ ? "fine step" : "step", step);
+                      s.stable_step(), s.explicit_substeps(step), coupling_ ? "fine step" : "step", step);
   for (const auto& [nodes, hold] : elastic(description).holds) {
     const std::vector<int> held = find_nodes(c, hold_key(description), nodes, s.mesh());
     double volume = 0.0;

@@ -101,8 +101,10 @@ double read_section(Section& section) {
   return section.get<double>("section", {.unit = "m^2", .doc = "of a cable", .range = positive});
 }
 
-double read_density(Section& section) {
-  return section.get<double>("density", {.unit = "kg/m^3", .doc = "own mass", .range = positive});
+double read_density(Section& section, bool coupled) {
+  return section.get<double>("density", {.unit = "kg/m^3",
+                                         .doc = "own mass; 0 only of what is coupled with the fluid",
+                                         .range = coupled ? not_negative : positive});
 }
 
 fem::ActiveStress read_active(Section section) {
@@ -119,9 +121,9 @@ fem::ActiveStress read_active(Section section) {
 
 /// Whether a part of the body meets the fluid, if there is one.
 bool read_coupled(Section& section, bool in_flow) {
-  return !in_flow || section.get<bool>("coupled", {.doc = "whether this part meets the fluid; one that does not may "
-                                                          "leave the finest cells and is not dragged",
-                                                   .fallback = true});
+  return in_flow && section.get<bool>("coupled", {.doc = "whether this part meets the fluid; one that does not may "
+                                                         "leave the finest cells and is not dragged",
+                                                  .fallback = true});
 }
 
 constexpr const char* active_doc = "active stress, of elements that pull by themselves";
@@ -133,9 +135,10 @@ fem::Hexahedron read_element(Section& section) {
 }
 
 /// A membrane has a thickness, a cable the law of one; the rest is solid.
-fem::Region read_region(Section& section) {
+fem::Region read_region(Section& section, bool coupled) {
   fem::Region region;
-  region.density = read_density(section);
+  region.coupled = coupled;
+  region.density = read_density(section, coupled);
   Section material = section.section("material", "what the region is made of");
   if (section.describing()) {
     region.kind = read_membrane(section, material, Law::neo_hookean);
@@ -162,12 +165,12 @@ void read_regions(Section& section, bool in_flow, ElasticBody& body) {
   section.each("region", "of the mesh, if not all of it is alike: density, material and so on stand here then",
                [&](Section& part) {
                  const std::string name = part.get<std::string>("name", {.doc = "of a physical group of the mesh"});
-                 body.regions.push_back(read_region(part));
+                 body.regions.push_back(read_region(part, read_coupled(part, in_flow)));
                  body.regions.back().elements = name;
-                 body.regions.back().coupled = read_coupled(part, in_flow);
                });
   const bool cables_alone = std::holds_alternative<fem::Mesh>(body.mesh);
-  if ((body.regions.empty() && !cables_alone) || section.describing()) body.regions.push_back(read_region(section));
+  if ((body.regions.empty() && !cables_alone) || section.describing())
+    body.regions.push_back(read_region(section, in_flow));
 }
 
 PointDescription read_point(Section& section) {
@@ -187,10 +190,12 @@ CableDescription read_cable(Section& section, bool in_flow) {
   cable.length = section.get<double>(
       "length",
       {.unit = "m", .doc = "unstressed; 0 for the distance in the mesh", .fallback = 0.0, .range = not_negative});
-  const double density = read_density(section), area = read_section(section);
-  cable.region = {cable.name, density, fem::Cable{read_cable_law(section), area}};
-  cable.region.active = read_active(section.section("active", active_doc));
+  cable.region.elements = cable.name;
   cable.region.coupled = read_coupled(section, in_flow);
+  cable.region.density = read_density(section, cable.region.coupled);
+  const double area = read_section(section);
+  cable.region.kind = fem::Cable{read_cable_law(section), area};
+  cable.region.active = read_active(section.section("active", active_doc));
   return cable;
 }
 
@@ -313,7 +318,7 @@ void read_loads(Section& section, ElasticBody& body, bool in_flow) {
   }
 }
 
-fem::StructureOptions read_structure(Section& body) {
+fem::StructureOptions read_structure(Section& body, bool in_flow) {
   const Choices<fem::Integrator> integrators{{"explicit", fem::Integrator::explicit_scheme},
                                              {"implicit", fem::Integrator::implicit_scheme},
                                              {"auto", fem::Integrator::cheaper}};
@@ -330,9 +335,10 @@ fem::StructureOptions read_structure(Section& body) {
                                              .fallback = options.spectral_radius,
                                              .range = {.min = 0.0, .max = 1.0}});
   }
-  options.dissipation = body.get<double>("dissipation", {.doc = "numerical, of what the sub-step barely resolves",
-                                                         .fallback = options.dissipation,
-                                                         .range = {.min = 0.0, .max = 0.49}});
+  options.dissipation = body.get<double>(
+      "dissipation", {.doc = "numerical, of what the sub-step barely resolves; may be 0 without a fluid",
+                      .fallback = options.dissipation,
+                      .range = {.min = 0.0, .max = 0.49, .open = in_flow}});
   options.safety = body.get<double>("safety", {.doc = "share of the stable sub-step that is used",
                                                .fallback = options.safety,
                                                .range = {.min = 0.01, .max = 1.0}});
@@ -365,7 +371,7 @@ Body read_elastic(Section& section, const Case& c) {
   section.each("cable", "cables that are added to the mesh",
                [&](Section& cable) { body.cables.push_back(read_cable(cable, in_flow)); });
   read_loads(section, body, in_flow);
-  body.structure = read_structure(section);
+  body.structure = read_structure(section, in_flow);
   section.each("probe", "a displacement to be measured",
                [&](Section& probe) { body.probes.push_back(read_probe(probe)); });
   const double reference_area = in_flow ? read_reference_area(section, area_of(body.mesh)) : 0.0;

@@ -56,12 +56,6 @@ void ElementGroup::add_stiffness(std::span<double> nodal_stiffness) const {
   }
 }
 
-void ElementGroup::add_masses(std::span<double> nodal_mass) const {
-  for (int e = 0; e < count(); ++e) {
-    for (const int node : nodes_of(e)) nodal_mass[node] += region_.density * volume_[e] / nodes_per_element();
-  }
-}
-
 ElementGroup::Extreme ElementGroup::worst() const {
   Extreme worst{0, 1.0, 1.0};
   const auto consider = [&](int element, double j, double excess) {

@@ -62,7 +62,7 @@ class ElementGroup : public ForceGroup {
   /// Density times squared frequency of a batch's elements [Pa/m^2] from above, as deformed, each direction of
   /// directional_stiffness() weighted with its lightness.
   void bound_frequencies(int batch, std::span<const Vec3> x);
-  /// Own mass over the mass that moves along each direction; 1 to begin with.
+  /// Masses that its nodes are said to have over those that move along each direction; 1 to begin with.
   void set_lightness(int element, const std::array<double, 3>& lightness) { lightness_[element] = lightness; }
 
   struct Extreme {
@@ -76,8 +76,6 @@ class ElementGroup : public ForceGroup {
   /// Adds to each node a stiffness [N/m] such that the matrix with their sum on its diagonal exceeds that of the
   /// elements, of the last bound_frequencies() of all batches; each direction weighted with its lightness.
   void add_stiffness(std::span<double> nodal_stiffness) const;
-  /// Adds the masses of the elements [kg], shared like that stiffness.
-  void add_masses(std::span<double> nodal_mass) const;
   double elastic_energy(std::span<const Vec3> x) const;  ///< [J]
   std::array<double, 2> volume_ratio_range(std::span<const Vec3> x) const;
 

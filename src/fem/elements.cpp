@@ -35,11 +35,10 @@ Elements::Elements(const Mesh& mesh, const std::vector<Region>& regions, const s
 }
 
 void Elements::add_region(const Mesh& mesh, const Region& region, const std::array<double, 2>& volume_ratio) {
-  if (!(region.density > 0.0 && std::isfinite(region.density))) {
+  if (!(std::isfinite(region.density) && (region.density > 0.0 || (region.density == 0.0 && region.coupled)))) {
     throw InputError(
-        fmt::format("the structure's density is {} kg/m^3; expected a positive number (of a massless "
-                    "solid: that of what surrounds it)",
-                    region.density));
+        fmt::format("the density of {} is {} kg/m^3; expected a positive number, or 0 of what is coupled with a fluid",
+                    described(region.elements), region.density));
   }
   const ElementSet set = elements_of(mesh, region);
   const GroupDescription description{region, volume_ratio};
@@ -77,9 +76,7 @@ void Elements::lump(std::size_t nodes) {
   nodal_volume_.assign(nodes, 0.0);
   coupled_volume_.assign(nodes, 0.0);
   nodal_mass_.assign(nodes, 0.0);
-  shared_mass_.assign(nodes, 0.0);
   for (const auto& group : groups_) {
-    group->add_masses(shared_mass_);
     std::vector<double> volume(nodes, 0.0);
     group->add_volumes(volume);
     for (std::size_t node = 0; node < nodes; ++node) {
@@ -189,11 +186,11 @@ void Elements::bound_frequencies(std::span<const Vec3> x) {
   }
 }
 
-double Elements::largest_squared_frequency(std::span<const Vec3> x) {
+double Elements::largest_squared_frequency(std::span<const Vec3> x, std::span<const double> mass) {
   const std::vector<double> stiffness = nodal_stiffness(x);
   double largest = 0.0;
   for (std::size_t node = 0; node < stiffness.size(); ++node) {
-    const double squared_frequency = stiffness[node] / shared_mass_[node];
+    const double squared_frequency = stiffness[node] / mass[node];
     if (squared_frequency <= largest) continue;
     largest = squared_frequency;
     stiffest_node_ = static_cast<int>(node);

@@ -56,9 +56,9 @@ class Elements {
   /// The element that was furthest out of bounds in the last compute_forces().
   Extreme worst() const;
 
-  /// Largest squared frequency [1/s^2] at positions `x`, from above: K <= sum_e omega_e^2 M_e over the elements, so it
-  /// is at most the largest mean, over the elements of a node, of omega_e^2 weighted with their masses.
-  double largest_squared_frequency(std::span<const Vec3> x);
+  /// Largest squared frequency [1/s^2] at positions `x` of nodes of `mass` [kg], from above: the largest ratio of
+  /// nodal_stiffness() to it.
+  double largest_squared_frequency(std::span<const Vec3> x, std::span<const double> mass);
   /// The node that decided the last of these.
   int stiffest_node() const { return stiffest_node_; }
   /// Diagonal matrix [N/m] that exceeds the stiffness matrix at positions `x`.
@@ -89,7 +89,6 @@ class Elements {
   std::vector<std::unique_ptr<ElementGroup>> groups_;
   std::vector<Faces> faces_;
   std::vector<double> nodal_volume_, coupled_volume_, nodal_mass_;
-  std::vector<double> shared_mass_;  ///< as ElementGroup::add_masses() lumps it [kg]
   std::vector<int> first_slot_;      ///< of each node in `slot_`, its elements before its faces
   std::vector<int> first_load_;      ///< the first of a face
   std::vector<const double*> slot_;  ///< where the elements of a node keep their force on it

@@ -18,12 +18,6 @@ double dot(std::span<const Vec3> a, std::span<const Vec3> b) {
   return sum;
 }
 
-std::vector<Vec3> moved(std::span<const Vec3> x, double share, std::span<const Vec3> u) {
-  std::vector<Vec3> y(x.begin(), x.end());
-  for (std::size_t i = 0; i < y.size(); ++i) y[i] += share * u[i];
-  return y;
-}
-
 struct Step {
   double share;
   std::vector<Vec3> x;
@@ -36,7 +30,7 @@ Step search(std::span<const Vec3> x, std::span<const Vec3> u, double work, const
   double low = 0.0, low_work = work, high = 0.0;
   Step step{1.0, {}, {}};
   for (int trial = 0; trial < most_trials; ++trial) {
-    step.x = moved(x, step.share, u);
+    step.x = combined(1.0, x, step.share, u);
     step.balance = forces(step.x);
     const double now = step.balance.inside ? dot(step.balance.left, u) : -INFINITY;
     const bool too_short = now > 0.5 * work && high > 0.0;
@@ -56,6 +50,12 @@ Step search(std::span<const Vec3> x, std::span<const Vec3> u, double work, const
 }  // namespace
 
 double norm(std::span<const Vec3> field) { return std::sqrt(dot(field, field)); }
+
+std::vector<Vec3> combined(double s, std::span<const Vec3> a, double t, std::span<const Vec3> b) {
+  std::vector<Vec3> sum(a.size());
+  for (std::size_t i = 0; i < a.size(); ++i) sum[i] = s * a[i] + t * b[i];
+  return sum;
+}
 
 Newton::Newton(Elements& elements, const SparseSystem::Held& held, std::span<const NodalMatrix::Pair> pairs,
                std::vector<double> damping)
@@ -96,10 +96,10 @@ double Newton::rounding_of_forces(std::span<const Vec3> x, const NodalMatrix& ad
 bool Newton::move_held(std::vector<Vec3>& x, const std::vector<Vec3>& prescribed, Balance& balance,
                        const Forces& forces, const NodalMatrix& added) {
   stiffness_.update(x);
-  const std::vector<Vec3> pulled = moved(balance.left, -1.0, stiffness_.times(prescribed));
+  const std::vector<Vec3> pulled = combined(1.0, balance.left, -1.0, stiffness_.times(prescribed));
   const std::vector<Vec3> u = step_against(pulled, added);
   if (u.empty()) return false;
-  x = moved(moved(x, 1.0, u), 1.0, prescribed);
+  x = combined(1.0, combined(1.0, x, 1.0, u), 1.0, prescribed);
   balance = forces(x);
   return balance.inside;
 }
@@ -152,7 +152,7 @@ std::optional<Newton::FreeMotion> Newton::find_free_motion(std::span<const Vec3>
     for (Vec3& v : u) v /= size;
     std::vector<Vec3> scaled = u;
     for (std::size_t node = 0; node < x.size(); ++node) scaled[node] *= damping_[node];
-    resistance = dot(u, moved(stiffness_.times(u), 1.0, added.times(u))) / dot(u, scaled);
+    resistance = dot(u, combined(1.0, stiffness_.times(u), 1.0, added.times(u))) / dot(u, scaled);
   }
   if (std::abs(resistance) > hardly) return std::nullopt;
   const auto most = std::ranges::max_element(u, {}, [](const Vec3& v) { return v.squaredNorm(); });

@@ -28,6 +28,8 @@ struct Balance {
 };
 
 double norm(std::span<const Vec3> field);
+/// s a + t b
+std::vector<Vec3> combined(double s, std::span<const Vec3> a, double t, std::span<const Vec3> b);
 
 class Newton {
  public:

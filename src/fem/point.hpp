@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The unknowns of a Structure are the coordinates of its points: a node's position, or of a pair {a, b} the mean
-//   x_m = s_a x_a + s_b x_b  and the difference  d = x_a - x_b,  s_a = m_a / (m_a + m_b), s_b = 1 - s_a.
+//   x_m = s_a x_a + s_b x_b  and the difference  d = x_a - x_b,  s_a = m_a / (m_a + m_b), s_b = 1 - s_a,
+// with the face masses m_a and m_b of the inertia.
 #pragma once
 
 #include <array>

@@ -48,7 +48,7 @@ struct ActiveStress {
 
 struct Region {
   std::string elements;  ///< a set of the mesh; empty for all elements of the kind's families
-  double density = 0.0;  ///< own mass per reference volume [kg/m^3], positive
+  double density = 0.0;  ///< own mass per reference volume [kg/m^3]; 0 only of what is coupled
   std::variant<Cable, Solid, Membrane> kind;
   ActiveStress active{};
   bool coupled = true;  ///< with what surrounds the body; elsewhere than in it otherwise

@@ -19,13 +19,14 @@
 namespace drogue::fem {
 
 /// Points that move as one: a node, or the two nodes of a pair through the thickness of a thin solid. A point's mean
-/// velocity carries `mass`; the difference of a pair keeps the solid's own mass, whatever surrounds it. Means are
-/// weighted with the nodes' own masses (halves, where the two faces are alike), so that the two motions do not exchange
-/// energy.
+/// velocity carries `mass`, the difference of a pair the reduced mass m_a m_b / (m_a + m_b) of its faces. Means are
+/// weighted with these masses (halves, where the two faces are alike), so that the two motions do not exchange energy.
 struct Inertia {
   std::vector<std::array<int, 2>> point;  ///< {a, -1} or {a, b}; every node in exactly one point
   std::vector<double> mass;               ///< [kg] of the mean motion
   std::vector<double> heavy_mass;         ///< [kg] on which gravity acts
+  std::vector<double> face_mass;          ///< [kg] of every node; read of those in pairs
+  double reset = 1.0;  ///< in (-1, 1]: least factor by which means' velocities are multiplied between advances
 };
 
 enum class Integrator { explicit_scheme, implicit_scheme, cheaper };
@@ -76,8 +77,9 @@ class Structure {
   std::span<const double> coupled_volume() const;  ///< [m^3] the part of it in coupled regions
   void set_state(std::span<const Vec3> position, std::span<const Vec3> velocity);
 
-  /// Replaces the default inertia (every node a point of its own mass). Throws InputError for a mass that is not
-  /// positive, a node not in exactly one point, a pair whose nodes are not held alike, or a hinge of a node alone.
+  /// Replaces the default inertia (every node a point of its own mass), as it must before a body that is massless
+  /// somewhere can move. Throws InputError for a mass that is not positive, a node not in exactly one point, a pair
+  /// whose nodes are not held alike, or a hinge of a node alone.
   void set_inertia(Inertia inertia);
   const Inertia& inertia() const;
   /// Shifts both nodes of a point so that their mean velocity becomes `v` [m/s]; differences are kept.
@@ -100,7 +102,8 @@ class Structure {
   const std::string& free_motion() const;
   /// What is cheaper by an estimate from counts.
   Equilibrium cheaper_equilibrium() const;
-  int substeps() const;              ///< taken by the last advance, or iterations to the last equilibrium
+  int substeps() const;                       ///< taken by the last advance, or iterations to the last equilibrium
+  double explicit_substeps(double dt) const;  ///< in an explicit advance over `dt` [s] from here
   double stable_step() const;        ///< [s] longest sub-step of the scheme, safety included, for largest_frequency()
   double largest_frequency() const;  ///< [rad/s] upper estimate from the elements as deformed, behind the sub-step
 

@@ -71,7 +71,7 @@ Integrator Structure::integrator_for(double dt) const {
   Data& d = *data_;
   if (d.options.integrator != Integrator::cheaper) return d.options.integrator;
   if (d.needs_explicit_motion()) return Integrator::explicit_scheme;
-  const double explicit_cost = std::ceil(dt / d.reference_step) * d.cost_of_forces();
+  const double explicit_cost = d.explicit_substeps(dt, d.reference_step) * d.cost_of_forces();
   const bool may_pay = explicit_cost > implicit_iterations * 2.0 * d.cost_of_forces();  // spares the factorisation
   return may_pay && implicit_iterations * d.cost_of_newton() < explicit_cost ? Integrator::implicit_scheme
                                                                              : Integrator::explicit_scheme;

@@ -48,6 +48,7 @@ struct Structure::Data {
   double reference_step = 0.0;          ///< stable_step() when the inertia was set [s]
   std::vector<Vec3> acceleration;       ///< of each node, of the implicit scheme; empty where unknown [m/s^2]
   NodalMatrix mass_matrix;              ///< of the points, see Inertia [kg]
+  std::vector<double> moving_mass;      ///< of each node, behind the bound of frequencies [kg]
   std::vector<Vec3> nodal_weight;       ///< of each node [N]
 
   std::vector<Vec3> forced_at;  ///< where stiffness-proportional damping takes the forces of the elements [m]
@@ -62,6 +63,8 @@ struct Structure::Data {
   void compute_forces(int substep);
   void compute_contact();
   double stable_step() const;
+  /// In `dt` with the `stable` step, and for resets of velocities [s].
+  double explicit_substeps(double dt, double stable) const;
   int substeps_for(double dt, double time);
   void stop_rigidly_held();
   /// A share of the loads of `time` [s] acts from now on.

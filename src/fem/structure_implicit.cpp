@@ -19,13 +19,6 @@ namespace {
 constexpr double tolerance = 1e-8;  // of the balance of forces
 constexpr int most_parts = 256;     // of a step whose balance is not found
 
-/// s a + t b
-std::vector<Vec3> combined(double s, std::span<const Vec3> a, double t, std::span<const Vec3> b) {
-  std::vector<Vec3> sum(a.size());
-  for (std::size_t i = 0; i < a.size(); ++i) sum[i] = s * a[i] + t * b[i];
-  return sum;
-}
-
 void add(NodalMatrix& sum, double factor, const NodalMatrix& matrix) {
   for (std::size_t node = 0; node < sum.diagonal.size(); ++node) sum.diagonal[node] += factor * matrix.diagonal[node];
   for (const auto& [a, b, value] : matrix.pairs) sum.pairs.push_back({a, b, factor * value});

@@ -22,6 +22,21 @@
 namespace drogue::fem {
 namespace {
 
+/// Sub-steps after which a mode of `phase` = omega dt is no larger than before although its velocity is then multiplied
+/// by `r`, wherever in its swing that meets it (docs/theory.md, Coupling).
+double substeps_between_resets(double r, double phase, double phi) {
+  const double lag = std::pow(0.5 * phi * phase, 2);  // v stands phi / 2 sub-steps behind x
+  if (lag >= 1.0) return INFINITY;
+  const double c = (1.0 - r) / std::sqrt(1.0 - lag);
+  const double growth = 0.5 * (c + std::sqrt(c * c + 4.0 * r));
+  return -2.0 * std::log(growth) / std::log1p(-(phi - 1.0) * phase * phase);
+}
+
+/// The same for modes much slower than the sub-step.
+double substeps_between_resets_of_slow_modes(double r, double phi) {
+  return phi * phi * (1.0 - r) / (4.0 * (phi - 1.0) * (1.0 + r));
+}
+
 /// Change of the velocity `v` of a coordinate under the force `f`, a damper and a spring `away` from its rest.
 double damped_change(double kick, double f, double damping, double stiffness, double away, double v, double dt) {
   return (v + kick * (f + stiffness * away)) / (1.0 + kick * (damping + dt * stiffness)) - v;
@@ -120,7 +135,7 @@ void Structure::Data::set_time(double time, double share) {
 }
 
 void Structure::Data::estimate_largest_frequency() {
-  largest_frequency = std::sqrt(elements.largest_squared_frequency(x));
+  largest_frequency = std::sqrt(elements.largest_squared_frequency(x, moving_mass));
   if (!contact) return;
   contact->watch(x);
   compute_contact();
@@ -162,11 +177,20 @@ void Structure::Data::compute_contact() {
   contact->compute_forces(x, v);
 }
 
+double Structure::Data::explicit_substeps(double dt, double stable) const {
+  double count = std::max(1.0, std::ceil(dt / stable));
+  if (inertia.reset == 1.0) return count;
+  const double phi = 1.0 + options.dissipation, stable_phase = 2.0 * options.safety / std::sqrt(2.0 * phi - 1.0);
+  count = std::max(count, std::ceil(substeps_between_resets_of_slow_modes(inertia.reset, phi)));
+  while (count < substeps_between_resets(inertia.reset, stable_phase * dt / (count * stable), phi)) ++count;
+  return count;
+}
+
 int Structure::Data::substeps_for(double dt, double time) {
   // Far beyond any useful count: an element that asks for more is crushed or inverted, be it between its Gauss points.
   constexpr double most = 20'000;
-  const double count = std::ceil(dt / stable_step());
-  if (count <= most) return std::max(1, static_cast<int>(count));
+  const double count = explicit_substeps(dt, stable_step());
+  if (count <= most) return static_cast<int>(count);
   elements.forget_out_of_bounds();
   elements.compute_forces(x);
   if (elements.out_of_bounds()) report_divergence(time);

@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // A step multiplies the slip of a mode that the delta function sees with the gain g in [0, 1] by m / (m + M) (1 - g),
-// with m the excess and M the dragged mass: it decays for every m >= 0, and for a negative one as long as -m <= m + M.
+// with m the excess and M the dragged mass: it decays for every m >= 0, and for a negative one as long as -m < m + M.
 #include "fsi/coupled_points.hpp"
 
 #include <fmt/format.h>
 
 #include <Eigen/Eigenvalues>
+#include <algorithm>
 
 #include "core/error.hpp"
 #include "fem/thin_solid.hpp"
@@ -80,7 +81,7 @@ CoupledPoints couple_points(const fem::Structure& structure, ib::Delta delta, do
       if (node >= 0) excess += structure.own_mass()[node] - density * structure.coupled_volume()[node];
     }
     const double dragged = points.dragged_mass[p];
-    if (!(dragged > 0.0 && dragged + 2.0 * excess >= 0.0)) {
+    if (!(dragged > 0.0 && dragged + 2.0 * excess > 0.0)) {
       throw InputError(
           fmt::format("body '{}': node {} is lighter by {:g} kg than the fluid it displaces, but drags {:g} kg of "
                       "fluid only; expected at "
@@ -92,11 +93,16 @@ CoupledPoints couple_points(const fem::Structure& structure, ib::Delta delta, do
   return points;
 }
 
-fem::Inertia inertia_of(const fem::Structure& structure, const CoupledPoints& points) {
-  fem::Inertia inertia{points.nodes, points.dragged_mass, points.excess_mass};
-  for (int p = 0; p < points.size(); ++p) inertia.mass[p] += points.excess_mass[p];
+fem::Inertia inertia_of(const fem::Structure& structure, const CoupledPoints& points, double density) {
+  fem::Inertia inertia{points.nodes, points.dragged_mass, points.excess_mass, {}};
+  for (int p = 0; p < points.size(); ++p) {
+    inertia.mass[p] += points.excess_mass[p];
+    inertia.reset = std::min(inertia.reset, points.excess_mass[p] / inertia.mass[p]);
+  }
   for (std::size_t node = 0; node < structure.own_mass().size(); ++node) {
-    if (structure.coupled_volume()[node] > 0.0) continue;
+    const double displaced = density * structure.coupled_volume()[node];
+    inertia.face_mass.push_back(std::max(structure.own_mass()[node], displaced));
+    if (displaced > 0.0) continue;
     inertia.point.push_back({static_cast<int>(node), -1});
     inertia.mass.push_back(structure.own_mass()[node]);
     inertia.heavy_mass.push_back(structure.own_mass()[node]);

@@ -24,8 +24,10 @@ struct CoupledPoints {
   int size() const { return static_cast<int>(nodes.size()); }
 };
 
-/// The points, and after them every uncoupled node on its own, with the masses that they move.
-fem::Inertia inertia_of(const fem::Structure& structure, const CoupledPoints& points);
+/// The points, and after them every uncoupled node on its own, with the masses that they move. The faces of a pair move
+/// against each other with their own mass, or that of the fluid of `density` [kg/m^3] in their place if it is more, so
+/// that a sheet may be massless.
+fem::Inertia inertia_of(const fem::Structure& structure, const CoupledPoints& points, double density);
 
 /// For a fluid of `density` [kg/m^3] on a grid of `spacing` [m]. Throws InputError, naming `body` and the node, where
 /// the solid is so light that the scheme would be unstable (half the fluid's density, for a thick one), or if nothing

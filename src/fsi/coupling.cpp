@@ -61,7 +61,7 @@ Coupling::Coupling(fem::Structure& structure, const amr::Forest& forest, const C
       options_(options),
       points_(points_for(structure, forest, options)),
       markers_(forest, options.delta, options.body) {
-  structure_->set_inertia(inertia_of(structure, points_));
+  structure_->set_inertia(inertia_of(structure, points_, options.fluid_density));
   if (options.scheme == Scheme::peskin) {
     expect_neutrally_buoyant(structure, options);
     points_ = split_into_nodes(points_);

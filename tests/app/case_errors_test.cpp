@@ -105,7 +105,7 @@ TEST(CaseErrors, values_out_of_range_are_named_with_their_bounds) {
       {"density = 1.2", "density = 0", "case.toml:14: fluid.density = 0 is out of range; expected a number above 0"},
       {"density = 1.2", "density = inf", "case.toml:14: fluid.density = inf is not finite"},
       {"density = 1\n", "density = -1\n",
-       "case.toml:27: body.plate.density = -1 is out of range; expected a number above 0"},
+       "case.toml:27: body.plate.density = -1 is out of range; expected a number of at least 0"},
       {"poisson = 0.3", "poisson = 0.5",
        "case.toml:29: body.plate.material.poisson = 0.5 is out of range; expected a "
        "number between -1 and 0.5"},

@@ -73,6 +73,15 @@ TEST_F(CoupledParts, cables_that_are_not_coupled_leave_the_finest_cells_and_hold
   EXPECT_GT(results["cd_peak"].get<double>(), 0.0);
 }
 
+TEST_F(CoupledParts, what_is_coupled_may_be_massless_and_nothing_else) {
+  write(replaced(canopy_on_lines, "density = 500", "density = 0"));
+  run_case(options_);
+  EXPECT_TRUE(summary()["finished"]);
+  write(replaced(canopy_on_lines, "density = 800", "density = 0"));
+  const std::string found = error();
+  EXPECT_NE(found.find("density = 0 is out of range; expected a number above 0"), std::string::npos) << found;
+}
+
 TEST_F(CoupledParts, cables_that_are_coupled_must_lie_in_the_finest_cells) {
   write(replaced(canopy_on_lines, "coupled = false\n", ""));
   const std::string found = error();

@@ -139,6 +139,7 @@ TEST_F(StructureCase, mistakes_are_named_with_their_place) {
       {"[[body.hold]]\nnodes = \"hook\"\nrigid = true\n", "",
        "body.load is wrong: nothing holds the part of the structure with node 0 at (-1, -1, 0) m along z, and loads"},
       {"name = \"load\"", "name = \"load\"\nintegrator = \"implicitly\"", "did you mean implicit?"},
+      {"density = 1000", "density = 0", "body.load.density = 0 is out of range; expected a number above 0"},
   };
   for (const auto& [from, to, message] : mistakes) {
     write(replaced(hanging_sheet, from, to));

@@ -89,7 +89,7 @@ inline double largest_norm(const std::vector<Vec3>& field) {
 
 /// The pairs of a thin body, each with `factor` times its own mass.
 inline Inertia paired(const Structure& body, double factor) {
-  Inertia inertia{thickness_pairs(body.mesh(), 1e300), {}, {}};
+  Inertia inertia{thickness_pairs(body.mesh(), 1e300), {}, {}, {body.own_mass().begin(), body.own_mass().end()}};
   for (const auto& [a, b] : inertia.point) {
     inertia.heavy_mass.push_back(body.own_mass()[a] + body.own_mass()[b]);
     inertia.mass.push_back(factor * inertia.heavy_mass.back());

@@ -48,7 +48,7 @@ TEST(StructureErrors, bad_meshes_are_named) {
 
 TEST(StructureErrors, bad_options_are_named) {
   const auto build = [](const SolidOptions& options) { solid(bar(), neo_hookean, options, {}); };
-  expect_message([&] { build({}); }, "density is 0 kg/m^3; expected a positive number");
+  expect_message([&] { build({.density = -1.0}); }, "the density of the mesh is -1 kg/m^3; expected a positive number");
   expect_message([&] { build({.density = 1.0, .dissipation = 0.5}); }, "dissipation is 0.5");
   expect_message([&] { build({.density = 1.0, .safety = 1.5}); }, "safety of the structure's stable step is 1.5");
   expect_message([&] { build({.density = 1.0, .volume_ratio = {1.2, 3.0}}); }, "volume ratio are 1.2 and 3");
