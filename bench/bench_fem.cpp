@@ -91,7 +91,9 @@ void advance(benchmark::State& state, const Material& material, const std::optio
   model.loads.contact = contact;
   Structure structure(std::move(model));
   const auto pairs = thickness_pairs(mesh, 6e-3);
-  Inertia inertia{pairs, {}, {}};
+  Inertia inertia;
+  inertia.point = pairs;
+  inertia.face_mass.assign(structure.own_mass().begin(), structure.own_mass().end());
   for (const double area : pair_areas(mesh, pairs)) {
     inertia.heavy_mass.push_back(density * area * 5e-3);
     inertia.mass.push_back(40.0 * inertia.heavy_mass.back());

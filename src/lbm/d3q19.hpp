@@ -8,9 +8,14 @@
 // Without the third order it is the lattice BGK scheme of the moments that are kept (Latt & Chopard, Math. Comput.
 // Simul. 72 (2006) 165). References: Malaspinas, arXiv:1505.06900 (2015); Jacob, Malaspinas & Sagaut, J. Turbul. 19
 // (2018) 1051.
+//
+// Where a step changes a velocity by little more than its last bit, what rounds the same way in every step adds up to a
+// viscosity of its own. Constants are therefore exact or corrected by their excess(), and 1 + drho, which floats hold
+// to 6e-8 only, is neither multiplied nor divided by: j = u + drho u, u = j - (drho / rho) j.
 #pragma once
 
 #include <array>
+#include <type_traits>
 #include <utility>
 
 #include "lbm/moments.hpp"
@@ -20,22 +25,32 @@ namespace drogue::lbm {
 /// Is (cx, cy, cz) a velocity of D3Q19?
 constexpr bool in_lattice(int cx, int cy, int cz) { return cx * cx + cy * cy + cz * cz <= 2; }
 
-/// What all populations of a cell share: the coefficients of the series, computed once.
+/// By how much the constant 1/n of this type exceeds the fraction, relative to it.
+template <class Real>
+constexpr Real excess(int n) {
+  if constexpr (std::is_same_v<Real, float>)
+    return static_cast<float>(n * double{1.0f / n} - 1.0);
+  else
+    return Real(0);  // of doubles of no account
+}
+
+/// What all populations of a cell share: the coefficients of the series, times the weight 1/36 of a diagonal one. All
+/// constants are then powers of two but 1/36 of the isotropic part and 1/12 of the momentum.
 template <class T, bool third_order = true>
 struct HermiteSeries {
   using Real = Scalar<T>;
-  T base;                     // drho - 3/2 tr A
-  std::array<T, 3> normal;    // 9/2 A_aa
-  std::array<T, 3> shear;     // 9 A_ab for (y, z), (x, z), (x, y): named by the axis left out
+  T base;                     // (drho - 3/2 tr A) / 36
+  std::array<T, 3> normal;    // 9/2 A_aa / 36
+  std::array<T, 3> shear;     // 9 A_ab / 36 for (y, z), (x, z), (x, y): named by the axis left out
   std::array<T, 3> axis;      // odd part of the population along an axis
   std::array<T, 3> odd_next;  // odd part along a in the diagonals of the plane (a, a + 1)
   std::array<T, 3> odd_prev;  // odd part along a in the diagonals of the plane (a, a - 1)
 
   /// `keep` = 1 - 1/tau, the share of Pneq that survives the collision.
   HermiteSeries(const std::array<T, moments>& m, Real keep) {
-    const T rho = Real(1) + m[drho];
+    const T surplus = m[drho] - excess<Real>(12);  // rho - 1, and what 1/12 is too large by
     const std::array<T, 3> u{m[ux], m[uy], m[uz]};
-    const std::array<T, 3> j{rho * u[0], rho * u[1], rho * u[2]};
+    const std::array<T, 3> j{u[0] + surplus * u[0], u[1] + surplus * u[1], u[2] + surplus * u[2]};
     const std::array<T, 3> p{m[pxx], m[pyy], m[pzz]};
     const std::array<T, 3> s{m[pyz], m[pxz], m[pxy]};
     std::array<T, 3> a, b, off;
@@ -45,20 +60,22 @@ struct HermiteSeries {
       a[i] = inertia + keep * p[i];
       b[i] = a[i] - Real(2) * inertia;
       off[i] = j[k] * u[l] + keep * s[i];
-      normal[i] = Real(4.5) * a[i];
-      shear[i] = Real(9) * off[i];
+      normal[i] = Real(0.125) * a[i];
+      shear[i] = Real(0.25) * off[i];
     }
-    base = m[drho] - Real(1.5) * (a[0] + a[1] + a[2]);
+    const T isotropic = m[drho] - Real(1.5) * (a[0] + a[1] + a[2]);
+    base = (Real(1) / 36) * isotropic - (excess<Real>(36) / 36) * isotropic;  // fused: the first product is not rounded
     for (int i = 0; i < 3; ++i) {
-      axis[i] = odd_next[i] = odd_prev[i] = Real(3) * j[i];
+      odd_next[i] = odd_prev[i] = (Real(1) / 12) * j[i];
+      axis[i] = odd_next[i] + odd_prev[i];
       if constexpr (third_order) {
         const int k = (i + 1) % 3, l = (i + 2) % 3;
         // a_ikk = u_i (A_kk - 2 rho u_k u_k) + 2 u_k A_ik, and the same with l
         const T a_ikk = u[i] * b[k] + Real(2) * u[k] * off[l];
         const T a_ill = u[i] * b[l] + Real(2) * u[l] * off[k];
-        axis[i] -= Real(9) * (a_ikk + a_ill);
-        odd_next[i] += Real(9) * a_ikk;
-        odd_prev[i] += Real(9) * a_ill;
+        axis[i] -= Real(0.5) * (a_ikk + a_ill);
+        odd_next[i] += Real(0.25) * a_ikk;
+        odd_prev[i] += Real(0.25) * a_ill;
       }
     }
   }
@@ -69,18 +86,18 @@ struct HermiteSeries {
     constexpr std::array<int, 3> c{cx, cy, cz};
     constexpr int nonzero = cx * cx + cy * cy + cz * cz;
     if constexpr (nonzero == 0) {
-      return (Real(1) / 3) * base;
+      return Real(12) * base;
     } else if constexpr (nonzero == 1) {
       constexpr int i = cx ? 0 : cy ? 1 : 2;
-      const T even = base + normal[i];
-      return (Real(1) / 18) * (c[i] > 0 ? even + axis[i] : even - axis[i]);
+      const T even = Real(2) * (base + normal[i]);
+      return c[i] > 0 ? even + axis[i] : even - axis[i];
     } else {
       constexpr int out = !cx ? 0 : !cy ? 1 : 2;
       constexpr int i = (out + 1) % 3, k = (out + 2) % 3;
       const T sum = base + normal[i] + normal[k];
       const T even = c[i] * c[k] > 0 ? sum + shear[out] : sum - shear[out];
       const T along_i = c[i] > 0 ? even + odd_next[i] : even - odd_next[i];
-      return (Real(1) / 36) * (c[k] > 0 ? along_i + odd_prev[k] : along_i - odd_prev[k]);
+      return c[k] > 0 ? along_i + odd_prev[k] : along_i - odd_prev[k];
     }
   }
 };
@@ -133,10 +150,10 @@ std::array<T, moments> moments_of(const Populations& f) {
   const T jx = (px - nx) + (xy.along_first + xz.along_first);
   const T jy = (py - ny) + (xy.along_second + yz.along_first);
   const T jz = (pz - nz) + (xz.along_second + yz.along_second);
-  const T per_rho = Scalar<T>(1) / (Scalar<T>(1) + m[drho]);
-  m[ux] = jx * per_rho;
-  m[uy] = jy * per_rho;
-  m[uz] = jz * per_rho;
+  const T surplus = m[drho] * reciprocal(Scalar<T>(1) + m[drho]);  // (rho - 1) / rho
+  m[ux] = jx - surplus * jx;
+  m[uy] = jy - surplus * jy;
+  m[uz] = jz - surplus * jz;
   const T pressure = (Scalar<T>(1) / 3) * m[drho];
   m[pxx] = xx - pressure - jx * m[ux];
   m[pyy] = yy - pressure - jy * m[uy];

@@ -13,11 +13,12 @@ constexpr int n = amr::block_size;
 }  // namespace
 
 template <class S>
-Interpolation<S>::Interpolation(const amr::Forest& forest, int level)
+Interpolation<S>::Interpolation(const amr::Forest& forest, int level, double curvature)
     : forest_(forest),
       plan_(plan_interpolation(forest, level)),
-      stencil_{Stencil<Real>(axis_of_rule(0)), Stencil<Real>(axis_of_rule(1)), Stencil<Real>(axis_of_rule(2)),
-               Stencil<Real>(axis_of_rule(3))},
+      curvature_(curvature),
+      stencil_{Stencil<Real>(axis_of_rule(0), curvature), Stencil<Real>(axis_of_rule(1), curvature),
+               Stencil<Real>(axis_of_rule(2), curvature), Stencil<Real>(axis_of_rule(3), curvature)},
       of_leaf_(forest, level - 1),
       plane_{std::vector<Plane<S>>(plan_.sum.size()), std::vector<Plane<S>>(plan_.sum.size())} {
   for (std::size_t i = 0; i < plan_.sum.size(); ++i)
@@ -31,15 +32,17 @@ void Interpolation<S>::take(const BlockSum& block_sum, const MomentField<S>& fie
   const auto& [block, sum, lines] = block_sum;
   if (is_leaf(block_sum)) {
     const auto sums = std::make_unique_for_overwrite<LayerSums<S>>();
-    sums->request(sum, plane);
+    sums->request(sum, curvature_, plane);
     return sums->sum(field.block(block));
   }
+  const auto weights = moment_weights<Real>(sum.weight, sum.curvature, curvature_);
   for (int i = lines.begin; i < lines.end; ++i) {
     std::array<const std::byte*, interpolation_taps> line;
     for (int k = 0; k < sum.taps; ++k) line[k] = field.line(block, sum.normal, sum.first + k, i);
     for (int m = 0; m < moments; ++m) {
+      const auto& weight = weights[is_curved(m, sum.normal)];
       Vec<Real> v{};
-      for (int k = 0; k < sum.taps; ++k) v += static_cast<Real>(sum.weight[k]) * Layout::load_scaled(line[k], m);
+      for (int k = 0; k < sum.taps; ++k) v += weight[k] * Layout::load_scaled(line[k], m);
       plane[i][m] = v;
     }
   }
@@ -47,7 +50,7 @@ void Interpolation<S>::take(const BlockSum& block_sum, const MomentField<S>& fie
 
 template <class S>
 void Interpolation<S>::request(int leaf, LayerSums<S>& sums) {
-  for (const int i : of_leaf_[leaf]) sums.request(plan_.sum[i].sum, plane_[1 - now_][i]);
+  for (const int i : of_leaf_[leaf]) sums.request(plan_.sum[i].sum, curvature_, plane_[1 - now_][i]);
 }
 
 template <class S>
@@ -100,8 +103,9 @@ template <class S>
   for (int i = first; i < end; ++i)
     for (int m = 0; m < moments; ++m) {
       const V low = term(job.sum[i / n][0], i % n, m), high = term(job.sum[i / n][1], i % n, m);
-      V v = along.lane_weight[0] * pick<Real>(low, high, along.lane[0]);
-      for (int k = 1; k < taps; ++k) v += along.lane_weight[k] * pick<Real>(low, high, along.lane[k]);
+      const auto& weight = along.lane_weight[is_curved(m, along_axis(job.normal))];
+      V v = weight[0] * pick<Real>(low, high, along.lane[0]);
+      for (int k = 1; k < taps; ++k) v += weight[k] * pick<Real>(low, high, along.lane[k]);
       combined[i - first][m] = v;
     }
   const MomentConversion<Real> convert(conversion);
@@ -112,8 +116,9 @@ template <class S>
     const auto* from = combined + across.start[i] - first;
 #pragma GCC unroll 10
     for (int m = 0; m < moments; ++m) {
-      V v = across.weight[i][0] * from[0][m];
-      for (int k = 1; k < taps; ++k) v += across.weight[i][k] * from[k][m];
+      const auto& weight = across.weight[i][is_curved(m, across_axis(job.normal))];
+      V v = weight[0] * from[0][m];
+      for (int k = 1; k < taps; ++k) v += weight[k] * from[k][m];
       v = convert.factor[m] * v + convert.shift[m];
       Layout::store_scaled(to, m, whole ? v : wanted ? v : Layout::load_scaled(to, m));
     }

@@ -46,7 +46,8 @@ inline Axis axis_of_rule(int rule) { return cubic_axis(rule / 2, rule % 2); }
 template <class S>
 class Interpolation {
  public:
-  Interpolation(const amr::Forest& forest, int level);
+  /// `curvature` [coarse cells squared] is what levels differ by in moments that is_curved().
+  Interpolation(const amr::Forest& forest, int level, double curvature);
 
   /// Takes the coarse field between two of its steps, from a state of which nothing has been taken yet.
   void start(const MomentField<S>& coarse);
@@ -71,6 +72,7 @@ class Interpolation {
 
   const amr::Forest& forest_;
   const InterpolationPlan plan_;
+  const double curvature_;
   const std::array<Stencil<Real>, cubic_rules> stencil_;
   ByLeaf<int> of_leaf_;                         // numbers of its sums
   std::array<std::vector<Plane<S>>, 2> plane_;  // by sum

@@ -9,10 +9,9 @@ constexpr int n = amr::block_size, half = n / 2;
 }  // namespace
 
 template <class S>
-void LayerSums<S>::request(const LayerSum& sum, Plane<S>& result) {
-  Request request{sum.normal, sum.first, sum.taps, {}, &result};
-  for (int k = 0; k < sum.taps; ++k) request.weight[k] = static_cast<Real>(sum.weight[k]);
-  requests_.push_back(request);
+void LayerSums<S>::request(const LayerSum& sum, double curvature, Plane<S>& result) {
+  requests_.push_back(
+      {sum.normal, sum.first, sum.taps, moment_weights<Real>(sum.weight, sum.curvature, curvature), &result});
   const unsigned layers = ((1u << sum.taps) - 1) << sum.first;
   if (sum.normal == 0) sides_[sum.first / half] = true;
   if (sum.normal == 1) y_rows_ |= layers;
@@ -26,8 +25,9 @@ void LayerSums<S>::sum_columns(int side, int z) {
     const auto stored = [&](int x) { return m < pxx ? columns[x % half] : S::as_stored(columns[x % half]); };
     for (const Request& r : requests_) {
       if (r.normal != 0 || r.first / half != side) continue;
-      Vec<Real> sum = r.weight[0] * stored(r.first);
-      for (int k = 1; k < r.taps; ++k) sum += r.weight[k] * stored(r.first + k);
+      const auto& weight = r.weight[is_curved(m, 0)];
+      Vec<Real> sum = weight[0] * stored(r.first);
+      for (int k = 1; k < r.taps; ++k) sum += weight[k] * stored(r.first + k);
       (*r.result)[z][m] = sum;
     }
   }
@@ -41,8 +41,9 @@ void LayerSums<S>::sum_rows(const std::byte* rows) {
       const std::byte* row = rows + (r.normal == 1 ? line * n + r.first : r.first * n + line) * Layout::bytes;
       const std::size_t stride = (r.normal == 1 ? 1 : n) * Layout::bytes;
       for (int m = 0; m < moments; ++m) {
-        Vec<Real> sum = r.weight[0] * Layout::load_scaled(row, m);
-        for (int k = 1; k < r.taps; ++k) sum += r.weight[k] * Layout::load_scaled(row + k * stride, m);
+        const auto& weight = r.weight[is_curved(m, r.normal)];
+        Vec<Real> sum = weight[0] * Layout::load_scaled(row, m);
+        for (int k = 1; k < r.taps; ++k) sum += weight[k] * Layout::load_scaled(row + k * stride, m);
         (*r.result)[line][m] = sum;
       }
     }

@@ -6,15 +6,15 @@
 #include <array>
 #include <vector>
 
+#include "lbm/lines.hpp"
 #include "lbm/moments.hpp"
-#include "lbm/stencils.hpp"
 
 namespace drogue::lbm {
 
 /// `taps` layers from `first` along `normal` (0 x, 1 y, 2 z), weighted.
 struct LayerSum {
   int normal, first, taps;
-  std::array<double, Axis::most_taps> weight;
+  Axis::Weights weight, curvature;
 };
 
 /// A layer in 16 lines of 16 cells (lbm/lines.hpp); stresses as the storage scales them.
@@ -60,8 +60,8 @@ class LayerSums {
     sides_ = {false, false};
     y_rows_ = z_rows_ = 0;
   }
-  /// Sums along x must lie in one half of the block.
-  void request(const LayerSum& sum, Plane<S>& result);
+  /// Sums along x must lie in one half of the block. To moments that is_curved() `curvature` times that is added.
+  void request(const LayerSum& sum, double curvature, Plane<S>& result);
   bool empty() const { return requests_.empty(); }
 
   bool wants(int y, int z) const { return sides_[0] || sides_[1] || wants_row(y, z); }
@@ -73,7 +73,7 @@ class LayerSums {
   using Layout = RowLayout<S>;
   struct Request {
     int normal, first, taps;
-    std::array<Real, Axis::most_taps> weight;
+    MomentWeights<Real> weight;
     Plane<S>* result;
   };
   bool wants_row(int y, int z) const { return (y_rows_ >> y & 1) || (z_rows_ >> z & 1); }

@@ -141,12 +141,13 @@ class BlockSums {
   /// its pair; `none` if it reads nothing there.
   int add(int block, int normal, int rule, int output, int part, const Range& lines) {
     const Axis axis = axis_of_rule(rule);
-    LayerSum sum{normal, 0, 0, {}};
+    LayerSum sum{normal, 0, 0, {}, {}};
     for (int k = 0; k < axis.taps; ++k) {
       const int layer = axis.start[output] + k;
       if (layer / n != part) continue;
       if (sum.taps == 0) sum.first = layer % n;
-      sum.weight[sum.taps++] = axis.weight[output][k];
+      sum.weight[sum.taps] = axis.weight[output][k];
+      sum.curvature[sum.taps++] = axis.curvature[output][k];
     }
     if (sum.taps == 0) return amr::none;
     const auto [known, is_new] = number_.try_emplace({block, normal, rule, part}, static_cast<int>(sum_.size()));

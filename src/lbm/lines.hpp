@@ -57,20 +57,44 @@ struct MomentConversion {
   }
 };
 
+/// Whether levels differ in a moment by its curvature along an axis: every stress but for one axis each
+/// (docs/theory.md, Levels).
+constexpr bool is_curved(int m, int axis) {
+  constexpr std::array<int, 6> but_for{0, 1, 2, 2, 1, 0};
+  return m >= pxx && but_for[m - pxx] != axis;
+}
+
+/// Weights along an axis, to be asked with is_curved() of a moment.
+template <class Real>
+using MomentWeights = std::array<std::array<Real, Axis::most_taps>, 2>;
+
+/// The value, and to what is curved `share` of the curvature added.
+template <class Real>
+MomentWeights<Real> moment_weights(const Axis::Weights& value, const Axis::Weights& curvature, double share) {
+  MomentWeights<Real> w;
+  for (int k = 0; k < Axis::most_taps; ++k) {
+    w[false][k] = static_cast<Real>(value[k]);
+    w[true][k] = static_cast<Real>(value[k] + share * curvature[k]);
+  }
+  return w;
+}
+
 /// An axis in the precision of the state, with lane numbers for lines that are combined along themselves.
 template <class Real>
 struct Stencil {
   std::array<int, amr::block_size> start;
-  std::array<std::array<Real, Axis::most_taps>, amr::block_size> weight;
+  std::array<MomentWeights<Real>, amr::block_size> weight;
   std::array<IndexVec<Real>, Axis::most_taps> lane;
-  std::array<Vec<Real>, Axis::most_taps> lane_weight;
+  std::array<std::array<Vec<Real>, Axis::most_taps>, 2> lane_weight;
 
-  explicit Stencil(const Axis& axis) : start(axis.start) {
-    for (int i = 0; i < amr::block_size; ++i)
+  Stencil(const Axis& axis, double curvature) : start(axis.start) {
+    for (int i = 0; i < amr::block_size; ++i) {
+      weight[i] = moment_weights<Real>(axis.weight[i], axis.curvature[i], curvature);
       for (int k = 0; k < Axis::most_taps; ++k) {
-        weight[i][k] = lane_weight[k][i] = static_cast<Real>(axis.weight[i][k]);
+        for (const bool curved : {false, true}) lane_weight[curved][k][i] = weight[i][curved][k];
         lane[k][i] = std::min(axis.start[i] + k, 2 * amr::block_size - 1);
       }
+    }
   }
 };
 

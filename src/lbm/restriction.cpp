@@ -11,12 +11,13 @@ constexpr int n = amr::block_size, half = n / 2, taps = restriction_taps;
 }  // namespace
 
 template <class S>
-Restriction<S>::Restriction(const amr::Forest& forest) : forest_(forest), axis_(restriction_axis()), stencil_(axis_) {
+Restriction<S>::Restriction(const amr::Forest& forest, double curvature)
+    : forest_(forest), axis_(restriction_axis()), curvature_(curvature), stencil_(axis_, curvature) {
   const IndexVec<Real> second_layer = lane_numbers<Real> >= half ? IndexVec<Real>{} + n : IndexVec<Real>{};
   for (int k = 0; k < taps; ++k) {
     for (int i = 0; i < n; ++i) {
       lane_[k][i] = stencil_.start[i % half] + k;
-      lane_weight_[k][i] = stencil_.weight[i % half][k];
+      for (const bool curved : {false, true}) lane_weight_[curved][k][i] = stencil_.weight[i % half][curved][k];
     }
     lane_[k] += second_layer;
   }
@@ -27,7 +28,8 @@ void Restriction<S>::request(const std::vector<RimFace>& faces, LayerSums<S>& su
   for (const RimFace& rim : faces)
     for (int r = 0; r < layers; ++r) {
       const int output = rim.face & 1 ? half - layers + r : r;  // of one child
-      sums.request({rim.face / 2, axis_.start[output], taps, axis_.weight[output]}, sum_[rim.face][r]);
+      sums.request({rim.face / 2, axis_.start[output], taps, axis_.weight[output], axis_.curvature[output]}, curvature_,
+                   sum_[rim.face][r]);
     }
 }
 
@@ -50,13 +52,15 @@ void Restriction<S>::write_face(int leaf_id, const RimFace& rim, const Conversio
     const int first = stencil_.start[i];
 #pragma GCC unroll 10
     for (int m = 0; m < moments; ++m) {
+      const auto& weight = stencil_.weight[i][is_curved(m, across_axis(normal))];
       V across[layers];
       for (int r = 0; r < layers; ++r) {
-        across[r] = stencil_.weight[i][0] * sum[r][first][m];
-        for (int k = 1; k < taps; ++k) across[r] += stencil_.weight[i][k] * sum[r][first + k][m];
+        across[r] = weight[0] * sum[r][first][m];
+        for (int k = 1; k < taps; ++k) across[r] += weight[k] * sum[r][first + k][m];
       }
-      V v = lane_weight_[0] * pick<Real>(across[0], across[1], lane_[0]);
-      for (int k = 1; k < taps; ++k) v += lane_weight_[k] * pick<Real>(across[0], across[1], lane_[k]);
+      const auto& lane_weight = lane_weight_[is_curved(m, along_axis(normal))];
+      V v = lane_weight[0] * pick<Real>(across[0], across[1], lane_[0]);
+      for (int k = 1; k < taps; ++k) v += lane_weight[k] * pick<Real>(across[0], across[1], lane_[k]);
       v = convert.factor[m] * v + convert.shift[m];
       Layout::store_half_scaled(to[0], m, along_half, low_half<Real>(v));
       Layout::store_half_scaled(to[1], m, along_half, high_half<Real>(v));

@@ -25,7 +25,8 @@ using RestrictionPlan = ByLeaf<RimFace>;
 template <class S>
 class Restriction {
  public:
-  explicit Restriction(const amr::Forest& forest);
+  /// `curvature` [fine cells squared] is what levels differ by in moments that is_curved().
+  Restriction(const amr::Forest& forest, double curvature);
 
   /// Asks for the sums along the normals of `faces`.
   void request(const std::vector<RimFace>& faces, LayerSums<S>& sums);
@@ -40,10 +41,11 @@ class Restriction {
 
   const amr::Forest& forest_;
   const Axis axis_;
+  const double curvature_;
   const Stencil<Real> stencil_;
   // of both layers along themselves at once, eight cells of each
   std::array<IndexVec<Real>, restriction_taps> lane_;
-  std::array<Vec<Real>, restriction_taps> lane_weight_;
+  std::array<std::array<Vec<Real>, restriction_taps>, 2> lane_weight_;
   std::array<std::array<Plane<S>, layers>, 6> sum_;  // by face
 };
 

@@ -23,6 +23,9 @@ Units units_of(const fluid::Specification& s) {
 
 double relaxation_time(double lattice_viscosity) { return 0.5 + lattice_viscosity / sound_speed_squared; }
 
+/// beta of Pneq = P + beta lap P, in cells squared. A fluid in which it would be large needs no correction.
+double stress_defect(double tau) { return 1.0 / 6.0 + 0.5 * (std::min(tau, 1.0) - 1.0); }
+
 bool is_forced(const fluid::Specification& s) {
   return std::ranges::any_of(s.force,
                              [](const Expression& f) { return !f.is_constant() || f(Vec3::Zero(), 0.0) != 0.0; });
@@ -60,9 +63,12 @@ BasicSolver<S>::BasicSolver(amr::Forest forest, fluid::Specification specificati
     l.dt = dx / units_.velocity;
     l.relaxation = {relaxation_time(specification_.viscosity * l.dt / (dx * dx)), specification_.hrr_sigma,
                     eddy_factor(specification_), Vec3::Zero()};
+  }
+  for (int level = 0; level < forest_.levels(); ++level) {
+    Level& l = levels_[level];
     if (level > 0) l.to_parents = plan_restriction(forest_, level);
     if (level < forest_.finest()) {
-      interpolation_.emplace_back(forest_, level + 1);
+      interpolation_.emplace_back(forest_, level + 1, stress_curvature(level, level + 1));
       reflux_.emplace_back(forest_, specification_, level);
     }
     if (forced_) set_kick(level, 0.0);
@@ -118,7 +124,8 @@ void BasicSolver<S>::stream_and_collide(int level) {
   const Conversion to_parents = level > 0 ? conversion(level, level - 1, l.time + l.dt) : Conversion{};
 #pragma omp parallel reduction(max : max_speed_squared) reduction(|| : diverged)
   {
-    const auto restriction = std::make_unique<Restriction<S>>(forest_);
+    const auto restriction =
+        std::make_unique<Restriction<S>>(forest_, level > 0 ? stress_curvature(level, level - 1) : 0.0);
     const auto sums = std::make_unique_for_overwrite<LayerSums<S>>();
 #pragma omp for schedule(static)
     for (int id = leaves.begin; id < leaves.end; ++id) {
@@ -198,7 +205,7 @@ void BasicSolver<S>::restrict_changed(int level, MomentField<S>& coarse) {
   const Conversion to_parents = conversion(level, level - 1, levels_[level].time);
 #pragma omp parallel
   {
-    const auto restriction = std::make_unique<Restriction<S>>(forest_);
+    const auto restriction = std::make_unique<Restriction<S>>(forest_, stress_curvature(level, level - 1));
     const auto sums = std::make_unique_for_overwrite<LayerSums<S>>();
 #pragma omp for schedule(dynamic, 4)
     for (int i = 0; i < count; ++i) {
@@ -227,6 +234,13 @@ Conversion BasicSolver<S>::conversion(int from, int to, double time) const {
   Conversion result{tau(to) * levels_[to].dt / (tau(from) * levels_[from].dt)};
   if (forced_) result.velocity_shift = half_kick(to, time) - half_kick(from, time);
   return result;
+}
+
+/// What the second-order parts of Pneq differ by, in cells of `from` squared: see docs/theory.md, Levels.
+template <class S>
+double BasicSolver<S>::stress_curvature(int from, int to) const {
+  const double ratio = forest_.spacing(to) / forest_.spacing(from);
+  return ratio * ratio * stress_defect(tau(to)) - stress_defect(tau(from));
 }
 
 template <class S>

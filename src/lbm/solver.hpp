@@ -82,6 +82,7 @@ class BasicSolver : public fluid::FluidSolver {
   [[noreturn]] void report_divergence(int level) const;
   BlockNeighbourhood<S> neighbourhood(int block, int from);
   Conversion conversion(int from, int to, double time) const;
+  double stress_curvature(int from, int to) const;
 
   amr::Forest forest_;
   fluid::Specification specification_;

@@ -9,8 +9,8 @@ namespace {
 constexpr int n = amr::block_size;
 
 /// Lagrange weights of the points 0, 1, 2, 3 at position x.
-std::array<double, Axis::most_taps> cubic_weights(double x) {
-  std::array<double, Axis::most_taps> w{};
+Axis::Weights cubic_weights(double x) {
+  Axis::Weights w{};
   for (int k = 0; k < 4; ++k) {
     double product = 1.0;
     for (int l = 0; l < 4; ++l)
@@ -20,35 +20,45 @@ std::array<double, Axis::most_taps> cubic_weights(double x) {
   return w;
 }
 
+/// The second derivative there of the same cubic: (1, -2, 1) at the points 1 and 2, continued linearly.
+Axis::Weights cubic_curvature(double x) { return {2.0 - x, 3.0 * x - 5.0, 4.0 - 3.0 * x, x - 1.0}; }
+
 }  // namespace
 
 Axis cubic_axis(int half, bool available) {
-  Axis axis{interpolation_taps, {}, {}};
+  Axis axis{interpolation_taps, {}, {}, {}};
   // the coarse block comes second in the pair for the low half, first for the high one
   const int begin = half == 0 ? n : 0;
   const int low = half == 0 && available ? 0 : begin, high = half == 1 && available ? 2 * n : begin + n;
   for (int i = 0; i < n; ++i) {
     const int coarse = begin + half * n / 2 + i / 2, odd = i & 1;
     axis.start[i] = std::clamp(coarse - 2 + odd, low, high - axis.taps);
-    axis.weight[i] = cubic_weights(coarse + (odd ? 0.25 : -0.25) - axis.start[i]);
+    const double x = coarse + (odd ? 0.25 : -0.25) - axis.start[i];
+    axis.weight[i] = cubic_weights(x);
+    axis.curvature[i] = cubic_curvature(x);
   }
   return axis;
 }
 
 Axis restriction_axis() {
-  Axis axis{restriction_taps, {}, {}};
+  Axis axis{restriction_taps, {}, {}, {}};
   for (int i = 0; i < n; ++i) {
     const int child = i / (n / 2), j = i % (n / 2);
     const bool low = j < n / 4;
     // the centred four points stand in five taps, such that an end and the output next to it use the same
     axis.start[i] = child * n + std::clamp(2 * j - (low ? 2 : 1), 0, n - restriction_taps);
-    if (low)
-      axis.weight[i] = {0, -1, 9, 9, -1};
-    else
-      axis.weight[i] = {-1, 9, 9, -1, 0};
-    if (j == 0) axis.weight[i] = {6, 11, 1, -3, 1};
-    if (j == n / 2 - 1) axis.weight[i] = {1, -3, 1, 11, 6};
+    axis.weight[i] = {0, -1, 9, 9, -1};
+    axis.curvature[i] = {0, 1, -1, -1, 1};
+    if (j == 0 || j == n / 2 - 1) {
+      axis.weight[i] = {6, 11, 1, -3, 1};
+      axis.curvature[i] = {2, -3, -1, 3, -1};
+    }
+    if (!low) {
+      std::ranges::reverse(axis.weight[i]);
+      std::ranges::reverse(axis.curvature[i]);
+    }
     for (double& w : axis.weight[i]) w /= 16.0;
+    for (double& w : axis.curvature[i]) w /= 2.0;
   }
   return axis;
 }

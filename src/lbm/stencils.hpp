@@ -11,12 +11,14 @@
 namespace drogue::lbm {
 
 /// Outputs 0 .. 15 along one axis from inputs 0 .. 31, the cells of a pair of adjacent blocks: output i is the sum over
-/// k < taps of weight[i][k] * input[start[i] + k].
+/// k < taps of weight[i][k] * input[start[i] + k]; with the weights `curvature` it is the second derivative there, per
+/// input cell squared.
 struct Axis {
   static constexpr int most_taps = 5;
+  using Weights = std::array<double, most_taps>;
   int taps;
   std::array<int, amr::block_size> start;
-  std::array<std::array<double, most_taps>, amr::block_size> weight;
+  std::array<Weights, amr::block_size> weight, curvature;
 };
 
 inline constexpr int interpolation_taps = 4, restriction_taps = 5;
@@ -27,7 +29,7 @@ Axis cubic_axis(int half, bool available);
 
 /// Fourth-order restriction of two fine blocks onto the one that covers them: (-1, 9, 9, -1) / 16, and
 /// (6, 11, 1, -3, 1) / 16 at the ends of each of them, so that no neighbour is read; both reproduce cubics and remove
-/// the shortest wave.
+/// the shortest wave, and so do the weights of their curvature.
 Axis restriction_axis();
 
 }  // namespace drogue::lbm
