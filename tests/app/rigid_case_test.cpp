@@ -93,7 +93,7 @@ TEST_F(RigidCase, mistakes_are_named_with_what_was_expected) {
       {"diameter = 0.4", "diameter = 0", "body.ball.shape.diameter = 0 is out of range; expected a number above 0 [m]"},
       {", diameter = 0.4", "", "body.ball.shape.diameter is missing; expected a number above 0 [m]: of a sphere"},
       {"diameter = 0.4", "diameter = 0.4, length = 1", "body.ball.shape.length has no effect here (of a cylinder)"},
-      {"name = \"ball\"", "name = \"ball\"\ndensity = 1", "body.ball.density has no effect here (own mass)"},
+      {"name = \"ball\"", "name = \"ball\"\ndensity = 1", "body.ball.density has no effect here (own mass;"},
       {"\"0.1*sin(2*t)\"", "\"0.1*x\"",
        "body.ball.motion.translation = \"0.1*x\" depends on the place; expected a formula in t alone"},
       {"angle = \"t\"", "angle = \"t\", axis = [0, 0, 0]",

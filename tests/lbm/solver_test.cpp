@@ -57,9 +57,9 @@ TEST(Solver, taylor_green_converges_at_second_order_on_one_level) {
   EXPECT_GT(std::log2(e32 / e64), 1.9);
 }
 
-/// A rounding of velocities that is biased by a tenth of the last bit, 6e-9, would make 1e-5 in these 1600 steps. 16-bit
-/// stresses, off by 1.4e-4 of themselves (rms), are a noise of some 1.4e-4 (2/3 tau k) / sqrt(2 nu) = 3e-5 of the
-/// velocity.
+/// A rounding of velocities that is biased by a tenth of the last bit, 6e-9, would make 1e-5 in these 1600 steps.
+/// 16-bit stresses, off by 1.4e-4 of themselves (rms), are a noise of some 1.4e-4 (2/3 tau k) / sqrt(2 nu) = 3e-5 of
+/// the velocity.
 TEST(Solver, storage_changes_a_decaying_vortex_by_rounding_noise_only) {
   const double doubles = taylor_green_error<DoubleStress>(64, 0), floats = taylor_green_error<FloatStress>(64, 0),
                standard = taylor_green_error<DefaultStress>(64, 0);
