@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // An elastic body of solids, membranes and cables: total Lagrangian, lumped masses, explicit in time with as many
-// sub-steps as its stable step asks for, or at rest. SI, double precision. Knows nothing of a fluid; what surrounds it
+// sub-steps as stability asks for, or at rest. SI, double precision. Knows nothing of a fluid; what surrounds it
 // enters as `Inertia`.
 #pragma once
 

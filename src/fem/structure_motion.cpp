@@ -22,6 +22,9 @@
 namespace drogue::fem {
 namespace {
 
+/// Far beyond any useful count: an element that asks for more is crushed or inverted, be it between its Gauss points.
+constexpr double most_substeps = 20'000;
+
 /// Sub-steps after which a mode of `phase` = omega dt is no larger than before although its velocity is then multiplied
 /// by `r`, wherever in its swing that meets it (docs/theory.md, Coupling).
 double substeps_between_resets(double r, double phase, double phi) {
@@ -163,19 +166,26 @@ void Structure::Data::compute_forces() {
 }
 
 double Structure::Data::explicit_substeps(double dt, double stable) const {
-  double count = std::max(1.0, std::ceil(dt / stable));
+  double count = std::max(std::ceil(dt / stable), 1.0);  // in this order, so that what is no number stays none
   if (inertia.reset == 1.0) return count;
   const double phi = 1.0 + options.dissipation, stable_phase = 2.0 * options.safety / std::sqrt(2.0 * phi - 1.0);
-  count = std::max(count, std::ceil(substeps_between_resets_of_slow_modes(inertia.reset, phi)));
-  while (count < substeps_between_resets(inertia.reset, stable_phase * dt / (count * stable), phi)) ++count;
+  const double of_slow_modes = std::ceil(substeps_between_resets_of_slow_modes(inertia.reset, phi));
+  if (of_slow_modes > most_substeps) {
+    throw InputError(fmt::format(
+        "a dissipation of {:g} would take {:g} sub-steps in every step of the fluid to damp what a solid so "
+        "light does; expected at most {:g}: more dissipation, or a denser solid",
+        options.dissipation, of_slow_modes, most_substeps));
+  }
+  count = std::max(count, of_slow_modes);
+  while (count <= most_substeps &&
+         count < substeps_between_resets(inertia.reset, stable_phase * dt / (count * stable), phi))
+    ++count;
   return count;
 }
 
 int Structure::Data::substeps_for(double dt, double time, const Contact* contact) {
-  // Far beyond any useful count: an element that asks for more is crushed or inverted, be it between its Gauss points.
-  constexpr double most = 20'000;
   const double count = explicit_substeps(dt, stable_step(contact));
-  if (count <= most) return static_cast<int>(count);
+  if (count <= most_substeps) return static_cast<int>(count);
   elements.forget_out_of_bounds();
   elements.compute_forces(x);
   if (elements.out_of_bounds()) report_divergence(time);
@@ -183,7 +193,7 @@ int Structure::Data::substeps_for(double dt, double time, const Contact* contact
   throw Diverged(
       fmt::format("the structure is torn or inverted next to node {} near ({:.4g}, {:.4g}, {:.4g}) m at t = {:.6g} s: "
                   "it would need more than {:g} sub-steps for {:.4g} s",
-                  node, x[node].x(), x[node].y(), x[node].z(), time, most, dt));
+                  node, x[node].x(), x[node].y(), x[node].z(), time, most_substeps, dt));
 }
 
 void Structure::Data::report_divergence(double time) const {

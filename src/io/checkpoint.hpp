@@ -15,7 +15,7 @@
 namespace drogue::io {
 
 /// To be raised whenever what a checkpoint holds changes its name or its meaning.
-inline constexpr int checkpoint_format = 2;
+inline constexpr int checkpoint_format = 3;
 
 /// Writes a checkpoint; nothing appears under its name before `commit`. Every member throws std::runtime_error naming
 /// the file.

@@ -69,7 +69,7 @@ void BoundaryFill<S>::add(int level, int id) {
   if (faces.size() == 2) add_wall_edge(level, id, faces);
 }
 
-/// Rules apart.
+/// Without table, memory and constant velocity.
 template <class S>
 auto BoundaryFill<S>::item_at(int id, const std::vector<int>& faces) const -> Item {
   const auto& face = specification_.face;
@@ -89,12 +89,12 @@ auto BoundaryFill<S>::item_at(int id, const std::vector<int>& faces) const -> It
     if (other == item.along) std::swap(item.along, item.across);
   }
   item.count = faces.size() == 1 ? n : 1;
-  item.to = {id, {0, 0, 0}, forest_.is_beyond(id, 0)};
-  for (const int f : faces) item.to.first[f / 2] = f & 1 ? 0 : n - 1;
-  item.from = {forest_.find(level, source), item.to.first, false};
-  item.from.first[axis] = n - 1 - item.to.first[axis];
-  const amr::Kind kind =
-      forest_.block(item.from.block).kind;  // that of ghosts and parents is in rows, see RimJob::copy
+  item.to = id;
+  for (const int f : faces) item.to_first[f / 2] = f & 1 ? 0 : n - 1;
+  item.from = {forest_.find(level, source), item.to_first, false};
+  item.from.first[axis] = n - 1 - item.to_first[axis];
+  // of ghosts and parents what is mirrored is in rows, see RimJob::copy
+  const amr::Kind kind = forest_.block(item.from.block).kind;
   item.from.in_columns =
       kind == amr::Kind::leaf ? axis == 0 : kind == amr::Kind::boundary && forest_.is_beyond(item.from.block, 0);
   item.table = item.memory = -1;
@@ -158,10 +158,10 @@ void BoundaryFill<S>::operator()(int level, double time, MomentField<S>& field) 
       const Item& item = items[i];
       const double rise = specification_.face[item.face].ramp;
       const double ramp = time < rise ? 0.5 * (1.0 - std::cos(std::numbers::pi * time / rise)) : 1.0;
-      Index3 from = item.from.first, to = item.to.first;
+      Index3 from = item.from.first, to = item.to_first;
       for (int line = 0; line < item.count; ++line, ++from[item.across], ++to[item.across]) {
         const Row<Real> inside = field.load_line(item.from.block, from, item.along, item.from.in_columns);
-        field.store_line(item.to.block, to, item.along, beyond(item, inside, line, static_cast<Real>(ramp)));
+        field.store_line(item.to, to, item.along, beyond(item, inside, line, static_cast<Real>(ramp)));
       }
     }
   }
@@ -224,10 +224,10 @@ void BoundaryFill<S>::update_table(const Item& item, double time) {
   const fluid::Face& face = specification_.face[item.face];
   const Box& domain = forest_.domain().box;
   const int axis = item.face / 2;
-  Index3 cell = item.to.first;
+  Index3 cell = item.to_first;
   for (int line = 0; line < item.count; ++line, ++cell[item.across])
     for (cell[item.along] = 0; cell[item.along] < n; ++cell[item.along]) {
-      Vec3 position = forest_.cell_centre(item.to.block, cell);
+      Vec3 position = forest_.cell_centre(item.to, cell);
       position[axis] = item.face & 1 ? domain.upper[axis] : domain.lower[axis];
       for (int a = 0; a < 3; ++a)
         tables_[item.table][line][a][cell[item.along]] =

@@ -54,7 +54,9 @@ class BoundaryFill {
   };
   /// The lines of one block that are images in one face: 16 next to it, or the one in an edge between two faces.
   struct Item {
-    Place from, to;
+    Place from;
+    int to;  // block, whose lines begin at
+    Index3 to_first;
     int along, across, count;  // axes along and across the lines
     int face;
     int table;         // of velocities; -1 where one value does

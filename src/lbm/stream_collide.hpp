@@ -36,7 +36,7 @@ template <class S>
 struct BlockNeighbourhood {
   std::array<const std::byte*, 27> source;  ///< by amr::neighbour_slot; the rims that face the block must be filled
   std::array<const std::byte*, 27>
-      columns;  ///< MomentField::columns of those beside it along x, or null: then rows are read
+      columns;  ///< MomentField::columns, or null: of those beside it along x, rows are read
   std::byte *target, *target_columns;
   LayerSums<S>* sums = nullptr;              ///< to be given the rows after the step, or null
   bool past_caches = true;                   ///< is the target stored past the caches?

@@ -78,6 +78,14 @@ TEST(StructureErrors, bad_inertia_is_named) {
                  "nodes 3 and 12 face each other but are not held alike");
 }
 
+TEST(StructureErrors, resets_of_velocity_ask_for_dissipation) {
+  Structure body = solid(bar(), neo_hookean, {.density = 1.0, .dissipation = 1e-5}, {});
+  Inertia inertia = body.inertia();
+  inertia.reset = 0.0;
+  body.set_inertia(inertia);
+  expect_message([&] { body.advance(1e-4, 0.0); }, "a dissipation of 1e-05 would take 25001 sub-steps");
+}
+
 TEST(StructureErrors, a_hinge_needs_a_pair_and_explicit_motion) {
   const Hold hinge{.nodes = {3}, .rigid = true, .hinged = true};
   Structure plate = solid(block({1.0, 1.0, 0.1}, {2, 2, 1}), neo_hookean, {.density = 1.0}, {hinge});

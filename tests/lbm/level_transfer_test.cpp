@@ -75,8 +75,10 @@ void transfer(const amr::Forest& forest, Field& field, double up, double down, c
 /// A moment of a neighbour at `offset`, as the update of a block finds it: in columns across x faces, else in rows.
 float value_at(const amr::Forest& forest, const Field& field, int id, const Index3& offset, const Index3& cell, int m) {
   using Layout = RowLayout<FloatStress>;
-  const bool at_edge = offset[0] != 0 && offset[1] != 0;
-  if (offset[0] != 0 && !(at_edge && edge_is_in_rows(forest, id, {-offset[0], -offset[1], 0})))
+  const int along = offset[1] != 0 ? 2 : 1;
+  Index3 first = cell;
+  first[along] = 0;
+  if (offset[0] != 0 && is_in_columns(forest, id, first, along))
     return Layout::get(field.column(id, cell[0], cell[2]), m, cell[1]);
   return Layout::get(field.row(id, cell[1], cell[2]), m, cell[0]);
 }

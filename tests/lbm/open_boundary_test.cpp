@@ -98,7 +98,7 @@ TEST(OpenBoundary, an_oblique_wave_leaves_but_for_what_theory_reflects) {
 TEST(OpenBoundary, an_eddy_leaves_through_the_outlet) {
   const EddyLeft left = eddy_left({}, 5.0);
   EXPECT_LT(left.velocity, 0.01);
-  EXPECT_LT(left.pressure, 0.11);
+  EXPECT_LT(left.pressure, 0.11);  // 0.100, decaying: the radiation condition errs while the eddy crosses
 }
 
 /// Of a start from rest with a rising inflow no slow wave is left that runs up and down the channel.
