@@ -32,7 +32,6 @@ class ContactSearch {
                 double distance);
 
   const std::vector<ContactFace>& faces() const { return faces_; }
-  const std::vector<int>& points() const { return points_; }  ///< of the faces, ascending
 
   /// Notes how far the points have moved since the last find(). Work is shared, without a barrier at the end.
   /// `place(point)` tells where one is [m].

@@ -176,6 +176,8 @@ TEST(CanopiesSinking, fold_onto_themselves_and_each_other_without_passing_throug
   const Collapse with = collapse(true), without = collapse(false);
   std::printf("crossings %d, without contact %d; energy at most %.3g, at the end %.2g J\n", with.crossings,
               without.crossings, with.highest, with.last);
+  // Where two edges meet, an end of one is within half an element (0.6 gaps) of the other's faces and is pushed off:
+  // none down to gaps of 0.4 elements, nor in 32 runs whose ways part by a gravity 1e-9 to 6e-3 m/s^2 aside; 8 at 0.27.
   EXPECT_EQ(with.crossings, 0);
   EXPECT_GT(without.crossings, 10);
   EXPECT_LT(with.highest, 0.1);  // 0.04 J with what they drag at the speed of the stream, 0.06 J by falling 0.6 m
