@@ -69,19 +69,13 @@ Law read_law(Section& material) {
 }
 
 fem::MembraneMaterial read_membrane_material(Section& material, Law law, bool wrinkling) {
-  if (law == Law::fabric) {
-    const fem::OrthotropicFabric fabric = read_fabric(material);
-    if (wrinkling) return fem::TensionField<fem::OrthotropicFabric>{fabric};
-    return fabric;
-  }
-  if (law == Law::neo_hookean) {
-    const fem::PlaneNeoHookean plane{read_neo_hookean(material)};
-    if (wrinkling) return fem::TensionField<fem::PlaneNeoHookean>{plane};
+  const auto that_folds_or_not = [&]<class Plane>(const Plane& plane) -> fem::MembraneMaterial {
+    if (wrinkling) return fem::TensionField<Plane>{plane};
     return plane;
-  }
-  const fem::PlaneSaintVenantKirchhoff plane{read_saint_venant_kirchhoff(material)};
-  if (wrinkling) return fem::TensionField<fem::PlaneSaintVenantKirchhoff>{plane};
-  return plane;
+  };
+  if (law == Law::fabric) return that_folds_or_not(read_fabric(material));
+  if (law == Law::neo_hookean) return that_folds_or_not(fem::PlaneNeoHookean{read_neo_hookean(material)});
+  return that_folds_or_not(fem::PlaneSaintVenantKirchhoff{read_saint_venant_kirchhoff(material)});
 }
 
 fem::Membrane read_membrane(Section& section, Section& material, Law law) {

@@ -125,7 +125,7 @@ void BasicSolver<S>::stream_and_collide(int level) {
 #pragma omp parallel reduction(max : max_speed_squared) reduction(|| : diverged)
   {
     const auto restriction =
-        std::make_unique<Restriction<S>>(forest_, level > 0 ? stress_curvature(level, level - 1) : 0.0);
+        level > 0 ? std::make_unique<Restriction<S>>(forest_, stress_curvature(level, level - 1)) : nullptr;
     const auto sums = std::make_unique_for_overwrite<LayerSums<S>>();
 #pragma omp for schedule(static)
     for (int id = leaves.begin; id < leaves.end; ++id) {
