@@ -20,7 +20,7 @@ Interpolation<S>::Interpolation(const amr::Forest& forest, int level, double cur
       stencil_{Stencil<Real>(axis_of_rule(0), curvature), Stencil<Real>(axis_of_rule(1), curvature),
                Stencil<Real>(axis_of_rule(2), curvature), Stencil<Real>(axis_of_rule(3), curvature)},
       of_leaf_(forest, level - 1),
-      plane_{std::vector<Plane<S>>(plan_.sum.size()), std::vector<Plane<S>>(plan_.sum.size())} {
+      plane_{HugeVector<Plane<S>>(plan_.sum.size()), HugeVector<Plane<S>>(plan_.sum.size())} {
   for (std::size_t i = 0; i < plan_.sum.size(); ++i) of_leaf_[plan_.sum[i].leaf].push_back(static_cast<int>(i));
 }
 

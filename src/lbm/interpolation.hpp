@@ -8,6 +8,7 @@
 #include <array>
 #include <vector>
 
+#include "core/huge_array.hpp"
 #include "lbm/by_leaf.hpp"
 #include "lbm/layer_sums.hpp"
 #include "lbm/lines.hpp"
@@ -73,8 +74,8 @@ class Interpolation {
   const double curvature_;
   const Real leaf_weight_;  // see joint_stencil()
   const std::array<Stencil<Real>, cubic_rules> stencil_;
-  ByLeaf<int> of_leaf_;                         // numbers of its sums
-  std::array<std::vector<Plane<S>>, 2> plane_;  // by sum
+  ByLeaf<int> of_leaf_;                        // numbers of its sums
+  std::array<HugeVector<Plane<S>>, 2> plane_;  // by sum
   int now_ = 0;  // which of them stands at the time of the fine level; the other at the end of the coarse step
 };
 
