@@ -66,9 +66,9 @@ void evaluate_eddy_viscosity(fluid::EddyViscosity eddy, int& count) {
   if (eddy == EddyViscosity::smagorinsky) lbm::eddy_viscosity<EddyViscosity::smagorinsky>(g, Counted(0.03));
 }
 
-// What BlockKernel computes itself, on vectors only: the differences and the blend of six stresses; a relaxation time
-// with eddy viscosity; the watch over speed and density.
-constexpr int of_hybrid_term = 9 + 3 * 3 + 3 * 4 + 3, of_local_tau = 9, of_watch = 9;
+// What BlockKernel computes itself, on vectors only: the differences and the blend of six stresses, with what cancels
+// dispersion; a relaxation time with eddy viscosity; the watch over speed and density.
+constexpr int of_hybrid_term = 9 + 3 * 3 + 3 * 4 + 3 + 3 * 8, of_local_tau = 9, of_watch = 9;
 
 }  // namespace
 

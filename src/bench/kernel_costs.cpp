@@ -94,6 +94,13 @@ void measure_costs(bool quick, const Patience& patience, ResultTable& table) {
     const auto nested = nested_flow(across, levels);
     measure_cost(levels_name(levels), share_at_interfaces(nested->forest()), {*plain}, {*nested}, patience, table);
   }
+  if (quick) return;
+  // interfaces grow as the square of the cubes' edge, and what they enclose as its third power
+  for (const int edge : {64, 192}) {
+    const auto uniform = uniform_flow(edge, default_operator()), nested = nested_flow(edge, most_levels);
+    measure_cost(fmt::format("{} of {}^3", levels_name(most_levels), edge), share_at_interfaces(nested->forest()),
+                 {*uniform}, {*nested}, patience, table);
+  }
 }
 
 io::Plot plot_of_levels(const ResultTable& costs) {

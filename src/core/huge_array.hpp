@@ -41,4 +41,17 @@ class HugeArray {
   std::size_t bytes_ = 0;
 };
 
+/// Elements that are all zero bytes at first.
+template <class T>
+class HugeVector {
+ public:
+  explicit HugeVector(std::size_t count) : bytes_(count * sizeof(T)) {}
+
+  T& operator[](std::size_t i) { return reinterpret_cast<T*>(bytes_.data())[i]; }
+  const T& operator[](std::size_t i) const { return reinterpret_cast<const T*>(bytes_.data())[i]; }
+
+ private:
+  HugeArray bytes_;
+};
+
 }  // namespace drogue

@@ -30,6 +30,7 @@ class BlockKernel {
         per_keep_(Real(1) / keep_),
         sigma_(static_cast<Real>(relaxation.sigma)),
         strain_factor_((sigma_ - Real(1)) / 3),
+        dispersion_(static_cast<Real>(std::max(0.0, relaxation.tau * (3 - 4 * relaxation.tau) / 6))),
         eddy_factor_(static_cast<Real>(relaxation.eddy_factor)),
         kick_{static_cast<Real>(relaxation.kick[0]), static_cast<Real>(relaxation.kick[1]),
               static_cast<Real>(relaxation.kick[2])} {}
@@ -244,13 +245,39 @@ class BlockKernel {
     }
   };
 
+  /// Central differences of the velocity one step ago.
+  struct Differences {
+    Gradient<V> twice_gradient;
+    std::array<V, 3> curvature;  // along each axis, of the product of the two other components
+  };
+
+  Differences differences(int y, int z) const {
+    const std::byte* here = row(y, z);
+    const auto& beyond = halo_.velocity[z & 1];
+    std::array<V, 3> u, next, previous;
+    Differences d;
+    for (int axis = 0; axis < 3; ++axis) {
+      const std::byte* after = axis == 1 ? row(y + 1, z) : row(y, z + 1);
+      const std::byte* before = axis == 1 ? row(y - 1, z) : row(y, z - 1);
+      for (int a = 0; a < 3; ++a) {
+        if (axis == 0) u[a] = load(Layout::macro(here, ux + a));
+        next[a] = axis == 0 ? shift_down<Real>(u[a], beyond[1][a][y]) : load(Layout::macro(after, ux + a));
+        previous[a] = axis == 0 ? shift_up<Real>(u[a], beyond[0][a][y]) : load(Layout::macro(before, ux + a));
+        d.twice_gradient[axis][a] = next[a] - previous[a];
+      }
+      const int a = (axis + 1) % 3, b = (axis + 2) % 3;
+      d.curvature[axis] = (next[a] * next[b] + previous[a] * previous[b]) - Real(2) * (u[a] * u[b]);
+    }
+    return d;
+  }
+
   /// The estimate is factor 2 S, from central differences of the velocity one step ago (its rim is there, a wider one
-  /// is not needed). An eddy viscosity acts through the stress that is stored, scaled so that the relaxation time of
-  /// the level turns it into the one after a collision with tau + 3 nu_t: (1 - 1/tau) P' = (1 - 1/tau_t) P. All this
-  /// comes before the row itself is collected: it is a long chain of operations, which the processor overlaps with the
-  /// sums.
+  /// is not needed), and in the shear stresses what cancels the lattice's dispersion (docs/theory.md, Update). An eddy
+  /// viscosity acts through the stress that is stored, scaled so that the relaxation time of the level turns it into
+  /// the one after a collision with tau + 3 nu_t: (1 - 1/tau) P' = (1 - 1/tau_t) P. All this comes before the row
+  /// itself is collected: it is a long chain of operations, which the processor overlaps with the sums.
   Hybrid hybrid_at(int y, int z) const {
-    const Gradient<V> d = twice_gradient(y, z);
+    const auto [d, curvature] = differences(y, z);
     V kept = broadcast(sigma_), factor = broadcast(strain_factor_ * tau_);
     if constexpr (eddy != fluid::EddyViscosity::none) {
       const V tau = tau_ + Real(1.5) * eddy_viscosity<eddy, V>(d, eddy_factor_);
@@ -259,23 +286,11 @@ class BlockKernel {
       factor = strain_factor_ * (scale * tau);
     }
     const V shear = Real(0.5) * factor;
-    return {kept,
-            {factor * d[0][0], factor * d[1][1], factor * d[2][2], shear * (d[0][1] + d[1][0]),
-             shear * (d[0][2] + d[2][0]), shear * (d[1][2] + d[2][1])}};
-  }
-
-  Gradient<V> twice_gradient(int y, int z) const {
-    const std::byte *here = row(y, z), *south = row(y - 1, z), *north = row(y + 1, z);
-    const std::byte *below = row(y, z - 1), *above = row(y, z + 1);
-    Gradient<V> d;
-    for (int a = 0; a < 3; ++a) {
-      const V u = load(Layout::macro(here, ux + a));
-      const auto& beyond = halo_.velocity[z & 1];
-      d[0][a] = shift_down<Real>(u, beyond[1][a][y]) - shift_up<Real>(u, beyond[0][a][y]);
-      d[1][a] = load(Layout::macro(north, ux + a)) - load(Layout::macro(south, ux + a));
-      d[2][a] = load(Layout::macro(above, ux + a)) - load(Layout::macro(below, ux + a));
-    }
-    return d;
+    const V streamed = dispersion_ > Real(0) ? dispersion_ * (kept - per_keep_) : V{};
+    return {
+        kept,
+        {factor * d[0][0], factor * d[1][1], factor * d[2][2], shear * (d[0][1] + d[1][0]) + streamed * curvature[2],
+         shear * (d[0][2] + d[2][0]) + streamed * curvature[1], shear * (d[1][2] + d[2][1]) + streamed * curvature[0]}};
   }
 
   /// Collects the cells at the x faces; a complete plane becomes the columns that neighbours will read.
@@ -311,7 +326,7 @@ class BlockKernel {
   }
 
   const BlockNeighbourhood<S>& blocks_;
-  const Real tau_, keep_, per_keep_, sigma_, strain_factor_, eddy_factor_;
+  const Real tau_, keep_, per_keep_, sigma_, strain_factor_, dispersion_, eddy_factor_;
   const std::array<Real, 3> kick_;
   V max_speed_{};
   IndexVec<Real> in_bounds_ = IndexVec<Real>{} - 1;

@@ -14,38 +14,22 @@ constexpr int n = amr::block_size;
 
 template <class S>
 Interpolation<S>::Interpolation(const amr::Forest& forest, int level, double curvature)
-    : forest_(forest),
-      plan_(plan_interpolation(forest, level)),
+    : plan_(plan_interpolation(forest, level)),
       curvature_(curvature),
+      leaf_weight_(static_cast<Real>(joint_stencil().leaf_weight)),
       stencil_{Stencil<Real>(axis_of_rule(0), curvature), Stencil<Real>(axis_of_rule(1), curvature),
                Stencil<Real>(axis_of_rule(2), curvature), Stencil<Real>(axis_of_rule(3), curvature)},
       of_leaf_(forest, level - 1),
-      plane_{std::vector<Plane<S>>(plan_.sum.size()), std::vector<Plane<S>>(plan_.sum.size())} {
-  for (std::size_t i = 0; i < plan_.sum.size(); ++i)
-    if (is_leaf(plan_.sum[i])) of_leaf_[plan_.sum[i].block].push_back(static_cast<int>(i));
+      plane_{HugeVector<Plane<S>>(plan_.sum.size()), HugeVector<Plane<S>>(plan_.sum.size())} {
+  for (std::size_t i = 0; i < plan_.sum.size(); ++i) of_leaf_[plan_.sum[i].leaf].push_back(static_cast<int>(i));
 }
 
-/// Of leaves from their rows, as in the course of an update; of parents from where their rims are kept.
+/// From the rows of a leaf, as in the course of an update.
 template <class S>
-void Interpolation<S>::take(const BlockSum& block_sum, const MomentField<S>& field, Plane<S>& plane) const {
-  using Layout = RowLayout<S>;
-  const auto& [block, sum, lines] = block_sum;
-  if (is_leaf(block_sum)) {
-    const auto sums = std::make_unique_for_overwrite<LayerSums<S>>();
-    sums->request(sum, curvature_, plane);
-    return sums->sum(field.block(block));
-  }
-  const auto weights = moment_weights<Real>(sum.weight, sum.curvature, curvature_);
-  for (int i = lines.begin; i < lines.end; ++i) {
-    std::array<const std::byte*, interpolation_taps> line;
-    for (int k = 0; k < sum.taps; ++k) line[k] = field.line(block, sum.normal, sum.first + k, i);
-    for (int m = 0; m < moments; ++m) {
-      const auto& weight = weights[is_curved(m, sum.normal)];
-      Vec<Real> v{};
-      for (int k = 0; k < sum.taps; ++k) v += weight[k] * Layout::load_scaled(line[k], m);
-      plane[i][m] = v;
-    }
-  }
+void Interpolation<S>::take(const LeafSum& sum, const MomentField<S>& field, Plane<S>& plane) const {
+  const auto sums = std::make_unique_for_overwrite<LayerSums<S>>();
+  sums->request(sum.sum, curvature_, plane);
+  sums->sum(field.block(sum.leaf));
 }
 
 template <class S>
@@ -63,25 +47,16 @@ void Interpolation<S>::for_each_sum(const F& f) const {
 
 template <class S>
 void Interpolation<S>::start(const MomentField<S>& coarse) {
-  for_each_sum([&](const BlockSum& sum, int i) { take(sum, coarse, plane_[now_][i]); });
+  for_each_sum([&](const LeafSum& sum, int i) { take(sum, coarse, plane_[now_][i]); });
 }
 
 template <class S>
 void Interpolation<S>::take_half_way(const MomentField<S>& coarse_end) {
-  for_each_sum([&](const BlockSum& sum, int i) {
+  for_each_sum([&](const LeafSum& sum, int i) {
     Plane<S>&now = plane_[now_][i], &end = plane_[1 - now_][i];
-    if (!is_leaf(sum)) return take(sum, coarse_end, now);
-    if (coarse_end.changed(sum.block)) take(sum, coarse_end, end);
+    if (coarse_end.changed(sum.leaf)) take(sum, coarse_end, end);
     for (int line = sum.lines.begin; line < sum.lines.end; ++line)
       for (int m = 0; m < moments; ++m) now[line][m] = Real(0.5) * (now[line][m] + end[line][m]);
-  });
-}
-
-template <class S>
-void Interpolation<S>::take_end(const MomentField<S>& coarse_end) {
-  now_ = 1 - now_;
-  for_each_sum([&](const BlockSum& sum, int i) {
-    if (!is_leaf(sum)) take(sum, coarse_end, plane_[now_][i]);
   });
 }
 
@@ -108,11 +83,14 @@ template <class S>
       for (int k = 1; k < taps; ++k) v += weight[k] * pick<Real>(low, high, along.lane[k]);
       combined[i - first][m] = v;
     }
-  const MomentConversion<Real> convert(conversion);
+  const bool is_joint = job.beside != amr::none;
+  const Real leaf_weight = is_joint ? leaf_weight_ : Real(0);
+  const MomentConversion<Real> convert(conversion, Real(1) - leaf_weight);
   const IndexVec<Real> wanted = (lane_numbers<Real> >= job.cells.begin) & (lane_numbers<Real> < job.cells.end);
   const bool whole = job.cells.begin == 0 && job.cells.end == n;
   for (int i = job.lines.begin; i < job.lines.end; ++i) {
     std::byte* to = fine.line(job.target, job.normal, job.layer, i);
+    const std::byte* leaf = is_joint ? fine.line(job.beside, job.normal, n - 1 - job.layer, i) : nullptr;
     const auto* from = combined + across.start[i] - first;
 #pragma GCC unroll 10
     for (int m = 0; m < moments; ++m) {
@@ -120,6 +98,7 @@ template <class S>
       V v = weight[0] * from[0][m];
       for (int k = 1; k < taps; ++k) v += weight[k] * from[k][m];
       v = convert.factor[m] * v + convert.shift[m];
+      if (is_joint) v += leaf_weight * Layout::load_scaled(leaf, m);
       Layout::store_scaled(to, m, whole ? v : wanted ? v : Layout::load_scaled(to, m));
     }
     if (job.copy) copy_line(fine, job.target, job.normal, job.layer, i, job.cells);

@@ -15,6 +15,8 @@ namespace drogue::lbm {
 struct LayerSum {
   int normal, first, taps;
   Axis::Weights weight, curvature;
+
+  bool operator==(const LayerSum&) const = default;
 };
 
 /// A layer in 16 lines of 16 cells (lbm/lines.hpp); stresses as the storage scales them.

@@ -10,7 +10,6 @@ namespace drogue::lbm {
 namespace {
 
 constexpr int n = amr::block_size;
-constexpr int depth = 2;  // layers of a parent that are filled
 
 struct CellBox {
   Index3 begin, end;
@@ -22,20 +21,20 @@ struct CellBox {
   }
 };
 
-/// The cells of a block of `size` cells within `layers` of the neighbour at `offset`.
-CellBox rim(const Index3& offset, int layers, int size) {
+/// The cells of a block next to the neighbour at `offset`.
+CellBox rim(const Index3& offset) {
   CellBox box;
   for (int a = 0; a < 3; ++a) {
-    box.begin[a] = offset[a] > 0 ? size - layers : 0;
-    box.end[a] = offset[a] < 0 ? layers : size;
+    box.begin[a] = offset[a] > 0 ? n - 1 : 0;
+    box.end[a] = offset[a] < 0 ? 1 : n;
   }
   return box;
 }
 
-/// Offsets of the neighbours of `id` that are leaves, faces first, then edges, then corners.
-std::vector<Index3> leaf_offsets(const amr::Forest& forest, int id, int farthest) {
+/// Offsets of the neighbours of `id` across faces, then across edges, that are leaves.
+std::vector<Index3> leaf_offsets(const amr::Forest& forest, int id) {
   std::vector<Index3> offsets;
-  for (int distance = 1; distance <= farthest; ++distance)
+  for (int distance = 1; distance <= 2; ++distance)
     for (int slot = 0; slot < 27; ++slot) {
       const Index3 o = amr::slot_offset(slot);
       if (std::abs(o[0]) + std::abs(o[1]) + std::abs(o[2]) != distance) continue;
@@ -50,11 +49,11 @@ struct Rim {
   CellBox box;
 };
 
-/// The rims towards `offsets`, without those that lie inside an earlier one.
-std::vector<Rim> rims(const std::vector<Index3>& offsets, int layers, int size) {
+/// The rims of a block towards leaves, without those that lie inside an earlier one.
+std::vector<Rim> rims(const amr::Forest& forest, int id) {
   std::vector<Rim> kept;
-  for (const Index3& offset : offsets) {
-    const CellBox box = rim(offset, layers, size);
+  for (const Index3& offset : leaf_offsets(forest, id)) {
+    const CellBox box = rim(offset);
     if (std::none_of(kept.begin(), kept.end(), [&](const Rim& k) { return k.box.contains(box); }))
       kept.push_back({offset, box});
   }
@@ -63,16 +62,19 @@ std::vector<Rim> rims(const std::vector<Index3>& offsets, int layers, int size) 
 
 using Sides = std::array<std::array<bool, 2>, 3>;  // [axis][low, high]
 
+int neighbour_at(const amr::Forest& forest, int id, const Index3& offset) {
+  return forest.block(id).neighbour[amr::neighbour_slot(offset[0], offset[1], offset[2])];
+}
+
 amr::Kind kind_at(const amr::Forest& forest, int id, const Index3& offset) {
-  const int neighbour = forest.block(id).neighbour[amr::neighbour_slot(offset[0], offset[1], offset[2])];
+  const int neighbour = neighbour_at(forest, id, offset);
   return neighbour == amr::none ? amr::Kind::boundary : forest.block(neighbour).kind;
 }
 
-bool holds_field(amr::Kind kind) { return kind == amr::Kind::leaf || kind == amr::Kind::parent; }
+int normal_to(const Index3& offset) { return offset[0] != 0 ? 0 : offset[1] != 0 ? 1 : 2; }
 
 /// Of the sides that a tensor-product stencil of block `id` would use, those it may: every neighbour that a combination
-/// of them reaches holds a field of its own. At a concave corner one axis gives way, one whose face is no parent if
-/// there is one, so that the stencil keeps straddling the interface.
+/// of them reaches is a leaf. Where none but the diagonal one is not, one axis gives way.
 Sides available_sides(const amr::Forest& forest, int id, Sides sides) {
   const auto reaches = [&](const Index3& o) {
     for (int a = 0; a < 3; ++a)
@@ -83,14 +85,8 @@ Sides available_sides(const amr::Forest& forest, int id, Sides sides) {
     for (int slot = 0; slot < 27; ++slot) {
       const Index3 o = amr::slot_offset(slot);
       if (std::abs(o[0]) + std::abs(o[1]) + std::abs(o[2]) != distance || !reaches(o)) continue;
-      if (holds_field(kind_at(forest, id, o))) continue;
-      int gives_way = amr::none;
-      for (int a = 0; a < 3; ++a) {
-        if (o[a] == 0) continue;
-        Index3 face{0, 0, 0};
-        face[a] = o[a];
-        if (gives_way == amr::none || kind_at(forest, id, face) != amr::Kind::parent) gives_way = a;
-      }
+      if (kind_at(forest, id, o) == amr::Kind::leaf) continue;
+      const int gives_way = normal_to(o);
       sides[gives_way][o[gives_way] > 0] = false;
     }
   return sides;
@@ -126,100 +122,103 @@ GhostStencil stencil_of(const amr::Forest& forest, const amr::Block& ghost) {
   return stencil;
 }
 
-int normal_to(const Index3& offset) { return offset[0] != 0 ? 0 : offset[1] != 0 ? 1 : 2; }
-
 bool touches_boundary(const amr::Forest& forest, int id) {
   for (const int neighbour : forest.block(id).neighbour)
     if (neighbour != amr::none && forest.block(neighbour).kind == amr::Kind::boundary) return true;
   return false;
 }
 
-/// Collects sums of layers, each once.
-class BlockSums {
- public:
-  /// Of what a stencil along `normal` reads, for an output in the layer `output`, from the first or second block of
-  /// its pair; `none` if it reads nothing there.
-  int add(int block, int normal, int rule, int output, int part, const Range& lines) {
-    const Axis axis = axis_of_rule(rule);
-    LayerSum sum{normal, 0, 0, {}, {}};
-    for (int k = 0; k < axis.taps; ++k) {
-      const int layer = axis.start[output] + k;
-      if (layer / n != part) continue;
-      if (sum.taps == 0) sum.first = layer % n;
-      sum.weight[sum.taps] = axis.weight[output][k];
-      sum.curvature[sum.taps++] = axis.curvature[output][k];
-    }
-    if (sum.taps == 0) return amr::none;
-    const auto [known, is_new] = number_.try_emplace({block, normal, rule, part}, static_cast<int>(sum_.size()));
-    if (is_new) sum_.push_back({block, sum, lines});
-    Range& all = sum_[known->second].lines;
-    all = {std::min(all.begin, lines.begin), std::max(all.end, lines.end)};
-    return known->second;
+/// Of the layers that a stencil reads for an output, those in the first or second block of its pair; perhaps none.
+LayerSum part_of(const Axis& axis, int normal, int output, int part) {
+  LayerSum sum{normal, 0, 0, {}, {}};
+  for (int k = 0; k < axis.taps; ++k) {
+    const int layer = axis.start[output] + k;
+    if (layer / n != part) continue;
+    if (sum.taps == 0) sum.first = layer % n;
+    sum.weight[sum.taps] = axis.weight[output][k];
+    sum.curvature[sum.taps++] = axis.curvature[output][k];
   }
-  std::vector<BlockSum> take() { return std::move(sum_); }
+  return sum;
+}
+
+/// A host's part in what lies along the interface at its face on that side.
+LayerSum joint_sum(int normal, bool high) {
+  constexpr int taps = interpolation_taps;
+  const JointStencil joint = joint_stencil();
+  LayerSum sum{normal, high ? n - taps : 0, taps, joint.weight, joint.curvature};
+  if (high)
+    for (Axis::Weights* w : {&sum.weight, &sum.curvature}) std::reverse(w->begin(), w->begin() + taps);
+  return sum;
+}
+
+/// Collects sums of layers, each once.
+class LeafSums {
+ public:
+  /// Number of the sum, `none` if it is empty.
+  int add(int leaf, const LayerSum& sum, const Range& lines) {
+    if (sum.taps == 0) return amr::none;
+    for (const int i : of_leaf_[leaf]) {
+      if (!(sum_[i].sum == sum)) continue;
+      Range& all = sum_[i].lines;
+      all = {std::min(all.begin, lines.begin), std::max(all.end, lines.end)};
+      return i;
+    }
+    const int number = static_cast<int>(sum_.size());
+    of_leaf_[leaf].push_back(number);
+    sum_.push_back({leaf, sum, lines});
+    return number;
+  }
+  std::vector<LeafSum> take() { return std::move(sum_); }
 
  private:
-  std::map<std::array<int, 4>, int> number_;
-  std::vector<BlockSum> sum_;
+  std::map<int, std::vector<int>> of_leaf_;
+  std::vector<LeafSum> sum_;
 };
 
-/// Parents of `level` of which a part at an x face is read along x, by the interpolation onto a y or z face: where a
-/// host lies beside them. (If a leaf lies between, that part is at a y or z face too.)
-std::vector<bool> read_along_x(const amr::Forest& forest, int level) {
-  std::vector<bool> read(forest.size(), false);
-  const auto is_parent = [&](int id) { return forest.block(id).kind == amr::Kind::parent; };
-  const auto ghosts = forest.range(level + 1, amr::Kind::ghost);
-  for (int id = ghosts.begin; id < ghosts.end; ++id) {
-    const auto [rule, source] = stencil_of(forest, forest.block(id));
-    std::array<int, 3> host;  // its place in the pairs
-    for (int a = 0; a < 3; ++a) host[a] = 1 - rule[a] / 2;
-    const auto& beside = source[1 - host[0]];
-    for (const auto& [offset, box] : rims(leaf_offsets(forest, id, 2), 1, n)) {
-      if (normal_to(offset) == 0 || !is_parent(beside[host[1]][host[2]])) continue;
-      for (const auto& along_y : beside)
-        for (const int block : along_y)
-          if (is_parent(block)) read[block] = true;
-    }
+RimJob rim_job(const amr::Forest& forest, int ghost, const GhostStencil& stencil, const Rim& rim, LeafSums& sums) {
+  const int normal = normal_to(rim.offset), across = across_axis(normal), along = along_axis(normal);
+  const auto range = [&](int a) { return Range{rim.box.begin[a], rim.box.end[a]}; };
+  const bool is_face = rim.offset[across] == 0 && rim.offset[along] == 0;
+  RimJob job{ghost,
+             normal,
+             rim.box.begin[normal],
+             is_face ? neighbour_at(forest, ghost, rim.offset) : amr::none,
+             range(across),
+             range(along),
+             stencil.rule[across],
+             stencil.rule[along],
+             {},
+             normal == 2 || (normal == 0 && touches_boundary(forest, ghost))};
+  const Axis axis = axis_of_rule(job.across_rule);
+  const int first = axis.start[job.lines.begin], end = axis.start[job.lines.end - 1] + axis.taps;
+  for (int i = 0; i < 4; ++i) {
+    Index3 place;
+    place[across] = i >> 1;
+    place[along] = i & 1;
+    const Range lines{std::clamp(first - place[across] * n, 0, n), std::clamp(end - place[across] * n, 0, n)};
+    const auto sum_of = [&](int part) {
+      place[normal] = part;
+      const LayerSum sum = is_face ? joint_sum(normal, rim.offset[normal] > 0)
+                                   : part_of(axis_of_rule(stencil.rule[normal]), normal, job.layer, part);
+      return sums.add(stencil.source[place[0]][place[1]][place[2]], sum, lines);
+    };
+    auto& [one, other] = job.sum[place[across]][place[along]];
+    one = sum_of(0);
+    other = is_face ? amr::none : sum_of(1);
+    if (one == amr::none) std::swap(one, other);
   }
-  return read;
+  return job;
 }
 
 }  // namespace
 
 InterpolationPlan plan_interpolation(const amr::Forest& forest, int level) {
   InterpolationPlan plan;
-  BlockSums sums;
+  LeafSums sums;
   const auto ghosts = forest.range(level, amr::Kind::ghost);
   for (int id = ghosts.begin; id < ghosts.end; ++id) {
-    const auto [rule, source] = stencil_of(forest, forest.block(id));
-    for (const auto& [offset, box] : rims(leaf_offsets(forest, id, 2), 1, n)) {
-      const int normal = normal_to(offset), across = across_axis(normal), along = along_axis(normal);
-      const auto range = [&, &box = box](int a) { return Range{box.begin[a], box.end[a]}; };
-      RimJob job{id,
-                 normal,
-                 box.begin[normal],
-                 range(across),
-                 range(along),
-                 rule[across],
-                 rule[along],
-                 {},
-                 normal == 2 || (normal == 0 && touches_boundary(forest, id))};
-      const Axis axis = axis_of_rule(job.across_rule);
-      const int first = axis.start[job.lines.begin], end = axis.start[job.lines.end - 1] + axis.taps;
-      for (int i = 0; i < 8; ++i) {
-        Index3 place;
-        place[normal] = i >> 2;
-        place[across] = i >> 1 & 1;
-        place[along] = i & 1;
-        const Range lines{std::clamp(first - place[across] * n, 0, n), std::clamp(end - place[across] * n, 0, n)};
-        job.sum[place[across]][place[along]][place[normal]] =
-            sums.add(source[place[0]][place[1]][place[2]], normal, rule[normal], job.layer, place[normal], lines);
-      }
-      for (auto& pair : job.sum)
-        for (auto& [one, other] : pair)
-          if (one == amr::none) std::swap(one, other);
-      plan.job.push_back(job);
-    }
+    const GhostStencil stencil = stencil_of(forest, forest.block(id));
+    for (const Rim& rim : rims(forest, id)) plan.job.push_back(rim_job(forest, id, stencil, rim, sums));
     const int jobs = static_cast<int>(plan.job.size());
     if (plan.first.back() != jobs) plan.first.push_back(jobs);
   }
@@ -229,13 +228,9 @@ InterpolationPlan plan_interpolation(const amr::Forest& forest, int level) {
 
 RestrictionPlan plan_restriction(const amr::Forest& forest, int level) {
   const auto parents = forest.range(level - 1, amr::Kind::parent);
-  const std::vector<bool> along_x = read_along_x(forest, level - 1);
-  std::vector<bool> in_columns(forest.size(), false);  // blocks whose columns are interpolated
-  for (const BlockSum& of_block : plan_interpolation(forest, level).sum)
-    if (of_block.sum.normal == 0) in_columns[of_block.block] = true;
   RestrictionPlan plan(forest, level);
   for (int id = parents.begin; id < parents.end; ++id)
-    for (const auto& [offset, box] : rims(leaf_offsets(forest, id, 3), depth, n))
+    for (const auto& [offset, box] : rims(forest, id))
       for (int octant = 0; octant < 8; ++octant) {
         bool touches = true;
         for (int a = 0; a < 3; ++a) touches &= offset[a] == 0 || (octant >> a & 1) == (offset[a] > 0);
@@ -243,8 +238,7 @@ RestrictionPlan plan_restriction(const amr::Forest& forest, int level) {
         const int normal = normal_to(offset), face = 2 * normal + (offset[normal] > 0);
         auto& faces = plan[forest.block(id).child[octant]];
         if (std::ranges::any_of(faces, [&](const RimFace& rim) { return rim.face == face; })) continue;
-        const bool copy = normal == 2 || (normal == 1 ? in_columns[id] : along_x[id] || touches_boundary(forest, id));
-        faces.push_back({face, copy});
+        faces.push_back({face, normal == 2 || (normal == 0 && touches_boundary(forest, id))});
       }
   return plan;
 }
@@ -278,18 +272,6 @@ bool edge_is_in_rows(const amr::Forest& forest, int id, const Index3& towards) {
   if (kind != amr::Kind::ghost && kind != amr::Kind::parent) return false;
   return kind_at(forest, id, {towards[0], 0, 0}) != amr::Kind::leaf &&
          kind_at(forest, id, {0, towards[1], 0}) == amr::Kind::leaf;
-}
-
-std::vector<bool> deep_blocks(const amr::Forest& forest) {
-  std::vector<bool> deep(forest.size(), false);
-  for (int level = 1; level < forest.levels(); ++level) {
-    const RestrictionPlan restriction = plan_restriction(forest, level);
-    const auto leaves = forest.range(level, amr::Kind::leaf);
-    for (int leaf = leaves.begin; leaf < leaves.end; ++leaf)
-      for (const RimFace& rim : restriction[leaf])
-        if (rim.face < 2) deep[forest.block(leaf).parent] = true;
-  }
-  return deep;
 }
 
 }  // namespace drogue::lbm

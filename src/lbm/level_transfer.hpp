@@ -11,14 +11,13 @@
 
 namespace drogue::lbm {
 
-/// Rims of the ghosts of `level` that touch a leaf across a face or an edge, from their hosts on `level` - 1. (No
-/// population crosses a corner.) Rims at y and z faces are rows, those at z faces with their ends as columns; rims at x
-/// faces are columns, also written as rows where a boundary block mirrors them.
+/// Rims of the ghosts of `level` that touch a leaf across a face or an edge, from their hosts on `level` - 1 and, at
+/// faces, from that leaf. (No population crosses a corner.) Rims at y and z faces are rows, those at z faces with their
+/// ends as columns; rims at x faces are columns, also written as rows where a boundary block mirrors them.
 InterpolationPlan plan_interpolation(const amr::Forest& forest, int level);
 
-/// Of the leaves of `level`, the faces under the two layers of their parents that lie against leaves of `level` - 1.
-/// Rows and columns as above; x faces are also written as rows where the interpolation of a y or z face reads across
-/// them (concave edges of the fine region), and y faces as columns where that of an x face does.
+/// Of the leaves of `level`, the faces under the layer of their parents that lies against leaves of `level` - 1. Rows
+/// and columns as above.
 RestrictionPlan plan_restriction(const amr::Forest& forest, int level);
 
 /// Whether the line of 16 cells of a block from `first` along an axis, which its neighbour beyond a face or edge
@@ -31,8 +30,5 @@ std::vector<std::uint32_t> columns_beside(const amr::Forest& forest);
 /// Whether the rim of a ghost or parent along the edge towards an offset in x and y is to be found in rows: where a y
 /// face alone brings it about.
 bool edge_is_in_rows(const amr::Forest& forest, int id, const Index3& towards);
-
-/// Whether a block must keep two layers of columns for the transfer between levels: a parent with a rim at an x face.
-std::vector<bool> deep_blocks(const amr::Forest& forest);
 
 }  // namespace drogue::lbm

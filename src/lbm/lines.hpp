@@ -28,10 +28,8 @@ void copy_line(MomentField<S>& field, int id, int normal, int layer, int across,
   using Layout = RowLayout<S>;
   if (normal > 0) {
     const int y = normal == 1 ? layer : across, z = normal == 1 ? across : layer;
-    field.for_each_column(id, [&](int x) {
-      if (x < along.begin || x >= along.end) return;
-      Layout::copy_element(field.row(id, y, z), x, field.column(id, x, z), y);
-    });
+    for (const int x : {0, amr::block_size - 1})
+      if (x >= along.begin && x < along.end) Layout::copy_element(field.row(id, y, z), x, field.column(id, x, z), y);
   } else {
     for (int y = along.begin; y < along.end; ++y)
       Layout::copy_element(field.column(id, layer, across), y, field.row(id, y, across), layer);
@@ -44,15 +42,15 @@ struct Conversion {
   Vec3 velocity_shift = Vec3::Zero();  ///< added to the velocity, lattice units (lbm/body_force.cpp)
 };
 
-/// The same by moment: m becomes factor[m] m + shift[m].
+/// The same by moment, of a sum whose weights add up to `total`: m becomes factor[m] m + shift[m].
 template <class Real>
 struct MomentConversion {
   std::array<Real, moments> factor, shift;
 
-  explicit MomentConversion(const Conversion& c) {
+  explicit MomentConversion(const Conversion& c, Real total = 1) {
     for (int m = 0; m < moments; ++m) {
       factor[m] = static_cast<Real>(m < pxx ? 1.0 : c.stress_factor);
-      shift[m] = static_cast<Real>(m >= ux && m <= uz ? c.velocity_shift[m - ux] : 0.0);
+      shift[m] = m >= ux && m <= uz ? total * static_cast<Real>(c.velocity_shift[m - ux]) : Real(0);
     }
   }
 };

@@ -205,7 +205,7 @@ struct RowLayout {
 
 /// Moments of all blocks of a forest at one time level. The cells at the two x faces are kept once more, as columns
 /// along y, [x face][z][moment][y]: a neighbour that needs them would else touch every cache line of the block, because
-/// a row lies along x. `deep` blocks, which are interpolated across an x face, keep the next layer as well.
+/// a row lies along x.
 /// Who changes such a cell of a leaf calls add(), refresh_columns() or velocity_to_columns(). Of ghosts and parents the
 /// rims at the x faces exist as columns alone, unless level_transfer.hpp says otherwise; of what lies beyond the x
 /// faces of the domain columns are all there is.
@@ -216,15 +216,8 @@ class MomentField {
   using Real = typename S::Real;
   static constexpr std::size_t column_bytes = 2 * amr::block_size * Layout::bytes;
 
-  explicit MomentField(int blocks, std::vector<bool> deep = {})
-      : rows_(blocks * Layout::block_bytes), columns_(blocks * column_bytes), deep_(std::move(deep)) {
-    deep_.resize(blocks, false);
-    changed_.resize(blocks, false);
-    inner_of_.reserve(blocks);
-    std::size_t count = 0;
-    for (const bool is_deep : deep_) inner_of_.push_back(is_deep ? count++ : 0);
-    inner_ = HugeArray(count * column_bytes);
-  }
+  explicit MomentField(int blocks)
+      : rows_(blocks * Layout::block_bytes), columns_(blocks * column_bytes), changed_(blocks, false) {}
 
   std::byte* block(int id) { return rows_.data() + id * Layout::block_bytes; }
   const std::byte* block(int id) const { return rows_.data() + id * Layout::block_bytes; }
@@ -233,12 +226,10 @@ class MomentField {
   std::byte* columns(int id) { return columns_.data() + id * column_bytes; }
   const std::byte* columns(int id) const { return columns_.data() + id * column_bytes; }
 
-  /// The column at (x, z); x must be 0 or 15, of a deep block 0, 1, 14 or 15.
+  /// The column at (x, z); x must be 0 or 15.
   std::byte* column(int id, int x, int z) { return const_cast<std::byte*>(std::as_const(*this).column(id, x, z)); }
   const std::byte* column(int id, int x, int z) const {
-    const int side = x >= amr::block_size / 2, layer = side ? amr::block_size - 1 - x : x;
-    const std::byte* first = layer == 0 ? columns(id) : inner_.data() + inner_of_[id] * column_bytes;
-    return first + (side * amr::block_size + z) * Layout::bytes;
+    return columns(id) + ((x > 0 ? amr::block_size : 0) + z) * Layout::bytes;
   }
 
   /// A line of 16 cells in the layer `layer` along `normal` (0 x, 1 y, 2 z): a column next to an x face, else a row.
@@ -293,7 +284,7 @@ class MomentField {
     if (axis == 0)
       for (int i = 0; i < lanes; ++i) Layout::macro(row(id, i, z), m)[layer] = cell[i];
     else
-      for_each_column(id, [&](int x) { Layout::macro(column(id, x, z), m)[y] = cell[x]; });
+      for (const int x : {0, amr::block_size - 1}) Layout::macro(column(id, x, z), m)[y] = cell[x];
     return sum;
   }
 
@@ -307,27 +298,16 @@ class MomentField {
   /// The same where only the velocity of one row has changed.
   void velocity_to_columns(int id, int y, int z) {
     changed_[id] = true;
-    for_each_column(id, [&](int x) {
+    for (const int x : {0, amr::block_size - 1})
       for (const Moment m : {ux, uy, uz}) Layout::macro(column(id, x, z), m)[y] = Layout::macro(row(id, y, z), m)[x];
-    });
   }
 
   /// Whether one of the four above has been called since forget_changes().
   bool changed(int id) const { return changed_[id]; }
   void forget_changes(int id) { changed_[id] = false; }
 
-  /// Calls f(x) for the x whose columns are kept.
-  template <class F>
-  void for_each_column(int id, const F& f) const {
-    for (const int x : {0, amr::block_size - 1}) f(x);
-    if (!deep_[id]) return;
-    for (const int x : {1, amr::block_size - 2}) f(x);
-  }
-
  private:
-  HugeArray rows_, columns_, inner_;
-  std::vector<bool> deep_;
-  std::vector<std::size_t> inner_of_;  // which part of inner_
+  HugeArray rows_, columns_;
   std::vector<std::uint8_t> changed_;  // of each block
 };
 

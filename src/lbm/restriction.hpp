@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Fourth-order restriction of fine leaves onto the rim of the parent that covers them, two layers deep: one is streamed
-// from, both are in reach of the cubic interpolation. The stencils stay inside a leaf, so its rim is summed up while it
-// is updated and nothing is read again.
+// Fourth-order restriction of fine leaves onto the layer of the parent that covers them which coarse leaves stream
+// from, at the end of a coarse step. The stencils stay inside a leaf, so its rim is summed up while it is updated and
+// nothing is read again.
 #pragma once
 
 #include <array>
@@ -21,7 +21,7 @@ struct RimFace {
 
 using RestrictionPlan = ByLeaf<RimFace>;
 
-/// Restricts one leaf at a time: request(), the rows, write(). About 120 KB.
+/// Restricts one leaf at a time: request(), the rows, write(). About 60 KB.
 template <class S>
 class Restriction {
  public:
@@ -35,7 +35,6 @@ class Restriction {
 
  private:
   using Real = typename S::Real;
-  static constexpr int layers = 2;
 
   void write_face(int leaf, const RimFace& rim, const Conversion& conversion, MomentField<S>& coarse) const;
 
@@ -43,10 +42,10 @@ class Restriction {
   const Axis axis_;
   const double curvature_;
   const Stencil<Real> stencil_;
-  // of both layers along themselves at once, eight cells of each
+  // of two lines along themselves at once, eight cells of each
   std::array<IndexVec<Real>, restriction_taps> lane_;
   std::array<std::array<Vec<Real>, restriction_taps>, 2> lane_weight_;
-  std::array<std::array<Plane<S>, layers>, 6> sum_;  // by face
+  std::array<Plane<S>, 6> sum_;  // by face
 };
 
 }  // namespace drogue::lbm

@@ -36,12 +36,6 @@ double eddy_factor(const fluid::Specification& s) {
   return linear ? s.eddy_constant : s.eddy_constant * s.eddy_constant;
 }
 
-template <class S>
-std::array<MomentField<S>, 2> fields_for(const amr::Forest& forest) {
-  const std::vector<bool> deep = deep_blocks(forest);
-  return {MomentField<S>(forest.size(), deep), MomentField<S>(forest.size(), deep)};
-}
-
 }  // namespace
 
 template <class S>
@@ -49,7 +43,7 @@ BasicSolver<S>::BasicSolver(amr::Forest forest, fluid::Specification specificati
     : forest_(std::move(forest)),
       specification_(std::move(specification)),
       units_(units_of(specification_)),
-      field_(fields_for<S>(forest_)),
+      field_{MomentField<S>(forest_.size()), MomentField<S>(forest_.size())},
       in_columns_(columns_beside(forest_)),
       fill_boundary_(forest_, specification_, units_),
       forced_(is_forced(specification_)),
@@ -98,21 +92,24 @@ void BasicSolver<S>::advance(int level, fluid::FineStepHook* hook) {
     couple(*hook);
   l.now = 1 - l.now;
   l.time += l.dt;
-  if (level > 0) restrict_changed(level, field_[1 - levels_[level - 1].now]);
+  if (l.completes) restrict_changed(level, field_[1 - levels_[level - 1].now]);
 }
 
 /// A level, within a step of the coarser one.
 template <class S>
 void BasicSolver<S>::advance_twice(int level, fluid::FineStepHook* hook) {
-  const Level &fine = levels_[level], &coarse = levels_[level - 1];
+  Level& fine = levels_[level];
+  const Level& coarse = levels_[level - 1];
   Interpolation<S>& interpolation = interpolation_[level - 1];
   MomentField<S>& coarse_end = field_[1 - coarse.now];
+  fine.completes = false;
   interpolation.fill_rims(conversion(level - 1, level, fine.time), field_[fine.now]);
   advance(level, hook);
   interpolation.take_half_way(coarse_end);
+  fine.completes = true;
   interpolation.fill_rims(conversion(level - 1, level, fine.time), field_[fine.now]);
   advance(level, hook);
-  interpolation.take_end(coarse_end);
+  interpolation.take_end();
 }
 
 template <class S>
@@ -121,11 +118,11 @@ void BasicSolver<S>::stream_and_collide(int level) {
   const auto leaves = forest_.range(level, amr::Kind::leaf);
   float max_speed_squared = 0.0f;
   bool diverged = false;
-  const Conversion to_parents = level > 0 ? conversion(level, level - 1, l.time + l.dt) : Conversion{};
+  const Conversion to_parents = l.completes ? conversion(level, level - 1, l.time + l.dt) : Conversion{};
 #pragma omp parallel reduction(max : max_speed_squared) reduction(|| : diverged)
   {
     const auto restriction =
-        level > 0 ? std::make_unique<Restriction<S>>(forest_, stress_curvature(level, level - 1)) : nullptr;
+        l.completes ? std::make_unique<Restriction<S>>(forest_, stress_curvature(level, level - 1)) : nullptr;
     const auto sums = std::make_unique_for_overwrite<LayerSums<S>>();
 #pragma omp for schedule(static)
     for (int id = leaves.begin; id < leaves.end; ++id) {
@@ -134,22 +131,22 @@ void BasicSolver<S>::stream_and_collide(int level) {
       blocks.next = &next;
       blocks.past_caches = leaves.size() > blocks_in_cache;
       sums->begin();
-      if (level > 0) restriction->request((*l.to_parents)[id], *sums);
+      if (l.completes) restriction->request((*l.to_parents)[id], *sums);
       if (level < forest_.finest()) interpolation_[level].request(id, *sums);
       if (!sums->empty()) blocks.sums = sums.get();
       if (level > 0) reflux_[level - 1].of_fine().count(id, field_[l.now], l.relaxation);
       if (level < forest_.finest()) reflux_[level].of_coarse().count(id, field_[l.now], l.relaxation);
       const BlockRecord record = update_(blocks, l.relaxation);
       sums->finish();
-      if (level > 0) restriction->write(id, (*l.to_parents)[id], to_parents, field_[1 - levels_[level - 1].now]);
+      if (l.completes) restriction->write(id, (*l.to_parents)[id], to_parents, field_[1 - levels_[level - 1].now]);
       field_[1 - l.now].forget_changes(id);
       max_speed_squared = std::max(max_speed_squared, record.max_speed_squared);
       diverged = diverged || record.diverged;
     }
   }
   if (diverged) report_divergence(level);
-  if (level > 0) reflux_[level - 1].end_fine_step(field_[l.now], l.relaxation);
-  if (level < forest_.finest()) reflux_[level].end_coarse_step(field_[l.now], l.relaxation);
+  if (level > 0) reflux_[level - 1].end_fine_step();
+  if (level < forest_.finest()) reflux_[level].end_coarse_step();
   statistics_.cell_updates += std::int64_t{leaves.size()} * amr::block_cells;
   const double speed = std::sqrt(max_speed_squared);
   statistics_.max_speed = std::max(statistics_.max_speed, speed * units_.velocity);

@@ -61,6 +61,7 @@ class BasicSolver : public fluid::FluidSolver {
     double dt;                 // [s]
     double time = 0.0;         // [s] of the field `now`
     int now = 0;               // which of the two fields holds the level's present
+    bool completes = false;    // the step at hand: one of the coarser level
     Vec3 lead = Vec3::Zero();  // of the stored velocity before that of the fluid, cells per step: lbm/body_force.cpp
     Relaxation relaxation;
     std::optional<RestrictionPlan> to_parents;  // of the next coarser level, if there is one

@@ -8,19 +8,19 @@ namespace {
 
 constexpr int n = amr::block_size;
 
-/// Lagrange weights of the points 0, 1, 2, 3 at position x.
-Axis::Weights cubic_weights(double x) {
+/// Lagrange weights of four points at position x.
+Axis::Weights cubic_weights(const std::array<double, 4>& point, double x) {
   Axis::Weights w{};
   for (int k = 0; k < 4; ++k) {
     double product = 1.0;
     for (int l = 0; l < 4; ++l)
-      if (l != k) product *= (x - l) / (k - l);
+      if (l != k) product *= (x - point[l]) / (point[k] - point[l]);
     w[k] = product;
   }
   return w;
 }
 
-/// The second derivative there of the same cubic: (1, -2, 1) at the points 1 and 2, continued linearly.
+/// The second derivative at x of the cubic through 0, 1, 2, 3: (1, -2, 1) at the points 1 and 2, continued linearly.
 Axis::Weights cubic_curvature(double x) { return {2.0 - x, 3.0 * x - 5.0, 4.0 - 3.0 * x, x - 1.0}; }
 
 }  // namespace
@@ -34,10 +34,20 @@ Axis cubic_axis(int half, bool available) {
     const int coarse = begin + half * n / 2 + i / 2, odd = i & 1;
     axis.start[i] = std::clamp(coarse - 2 + odd, low, high - axis.taps);
     const double x = coarse + (odd ? 0.25 : -0.25) - axis.start[i];
-    axis.weight[i] = cubic_weights(x);
+    axis.weight[i] = cubic_weights({0, 1, 2, 3}, x);
     axis.curvature[i] = cubic_curvature(x);
   }
   return axis;
+}
+
+JointStencil joint_stencil() {
+  const auto [leaf, first, second, third, none] = cubic_weights({-0.75, 0, 1, 2}, -0.25);
+  JointStencil joint{{first, second, third}, {}, leaf};
+  for (int layer = 0; layer < 3; ++layer) {
+    const Axis::Weights there = cubic_curvature(layer);
+    for (int k = 0; k < 4; ++k) joint.curvature[k] += joint.weight[layer] * there[k];
+  }
+  return joint;
 }
 
 Axis restriction_axis() {

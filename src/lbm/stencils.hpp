@@ -23,6 +23,14 @@ struct Axis {
 
 inline constexpr int interpolation_taps = 4, restriction_taps = 5;
 
+/// Cubic interpolation onto the layer of a ghost next to a fine leaf, along the normal: from three layers of its host,
+/// counted from the interface, and the first of the leaf. The curvature is that of the host's part, from four layers.
+struct JointStencil {
+  Axis::Weights weight, curvature;  ///< of the host's layers
+  double leaf_weight;               ///< of the leaf's; the host's share of the sum is 1 less that
+};
+JointStencil joint_stencil();
+
 /// Cubic interpolation onto the block in octant `half` (0 low, 1 high) of a coarse one; the pair is the coarse block
 /// and its neighbour on that side, which the stencils leave alone if it is not `available`.
 Axis cubic_axis(int half, bool available);
