@@ -57,8 +57,7 @@ constexpr int bar(int d) { return 7 ^ bit(d); }  ///< the mode of L_d
 inline Vector<Pack> normalized(const Vector<Pack>& a) { return (1.0 / square_root(dot(a, a))) * a; }
 
 void prepare_geometry(AssumedStrainBatch& batch, const Solid&, std::span<const Vec3> reference) {
-  LineField derivatives = edge_derivatives(batch.node, reference);
-  interpolate_lines(derivatives);
+  const LineField derivatives = to_lines(edge_differences(batch.node, reference));
   batch.mean_gradient = {};
   Pack volume{};
   for (int q = 0; q < 8; ++q) {
@@ -289,7 +288,7 @@ void add_tangent(const Law& law, const ActiveFibre& fibre, const AssumedStrainBa
       Tensor<Pack> df[8];
       to_gauss_points(change.modes(), df);
       for (int q = 0; q < 8; ++q) {
-        value[q] = law.tangent(f[q], df[q]);
+        value[q] = law.tangent(f[q])(df[q]);
         if (fibre.tension != 0.0) value[q] += active_tangent(fibre, f[q], df[q]);
       }
       Pack column[8][3]{};

@@ -16,7 +16,7 @@ ElementGroup::ElementGroup(const GroupDescription& description, std::string fami
       number_(std::move(numbers)),
       ratios_(batches()),
       lightness_(count(), {1.0, 1.0, 1.0}),
-      frequency_bound_(count()) {}
+      nodal_stiffness_(count()) {}
 
 void ElementGroup::set_time(double time, double share) {
   fibre_ = {share * region_.active.tension(Vec3::Zero(), time), region_.active.direction};
@@ -36,7 +36,7 @@ void ElementGroup::keep_volumes() {
   for (int e = 0; e < count(); ++e) volume_.push_back(volume_of(e));
 }
 
-void ElementGroup::bound_frequencies(int batch, std::span<const Vec3> x) {
+void ElementGroup::bound_stiffness(int batch, std::span<const Vec3> x) {
   const int first = batch * lanes, used = std::min(lanes, count() - first);
   Pack root[3]{};  // of the lightness
   for (int direction = 0; direction < 3; ++direction) {
@@ -46,13 +46,8 @@ void ElementGroup::bound_frequencies(int batch, std::span<const Vec3> x) {
   const Tensor<Pack> stiffness = stiffness_of(batch, x);
   const Pack bound =
       largest_eigenvalue_bound(tensor<Pack>([&](int i, int j) { return root[i] * root[j] * stiffness(i, j); }));
-  for (int lane = 0; lane < used; ++lane) frequency_bound_[first + lane] = bound[lane];
-}
-
-void ElementGroup::add_stiffness(std::span<double> nodal_stiffness) const {
-  for (int e = 0; e < count(); ++e) {
-    const double share = frequency_bound_[e] * volume_[e] / nodes_per_element();
-    for (const int node : nodes_of(e)) nodal_stiffness[node] += share;
+  for (int lane = 0; lane < used; ++lane) {
+    nodal_stiffness_[first + lane] = bound[lane] * volume_[first + lane] / nodes_per_element();
   }
 }
 

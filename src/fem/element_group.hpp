@@ -59,9 +59,12 @@ class ElementGroup : public ForceGroup {
   void set_time(double time, double share);
   bool compute_forces(int batch, std::span<const Vec3> x) override;
 
-  /// Density times squared frequency of a batch's elements [Pa/m^2] from above, as deformed, each direction of
-  /// directional_stiffness() weighted with its lightness.
-  void bound_frequencies(int batch, std::span<const Vec3> x);
+  /// Of a batch, for nodal_stiffness(): from density times squared frequency of an element, from above, as deformed,
+  /// each direction of directional_stiffness() weighted with its lightness.
+  void bound_stiffness(int batch, std::span<const Vec3> x);
+  /// Where a stiffness [N/m] is kept such that the matrix of an element is at most diagonal with that for each of its
+  /// nodes.
+  const double* nodal_stiffness(int element) const { return &nodal_stiffness_[element]; }
   /// Masses that its nodes are said to have over those that move along each direction; 1 to begin with.
   void set_lightness(int element, const std::array<double, 3>& lightness) { lightness_[element] = lightness; }
 
@@ -73,10 +76,7 @@ class ElementGroup : public ForceGroup {
   Extreme worst() const;
 
   virtual void add_volumes(std::span<double> nodal_volume) const = 0;  ///< [m^3]
-  /// Adds to each node a stiffness [N/m] such that the matrix with their sum on its diagonal exceeds that of the
-  /// elements, of the last bound_frequencies() of all batches; each direction weighted with its lightness.
-  void add_stiffness(std::span<double> nodal_stiffness) const;
-  double elastic_energy(std::span<const Vec3> x) const;  ///< [J]
+  double elastic_energy(std::span<const Vec3> x) const;                ///< [J]
   std::array<double, 2> volume_ratio_range(std::span<const Vec3> x) const;
 
  protected:
@@ -100,8 +100,8 @@ class ElementGroup : public ForceGroup {
   std::vector<int> number_;
   std::vector<VolumeRatio> ratios_;
   std::vector<std::array<double, 3>> lightness_;
-  std::vector<double> volume_;           // [m^3]
-  std::vector<double> frequency_bound_;  ///< [Pa/m^2]
+  std::vector<double> volume_;  // [m^3]
+  std::vector<double> nodal_stiffness_;
 };
 
 /// `elements` are numbers in the mesh. Throw InputError for a node number out of range and for an inverted or flat

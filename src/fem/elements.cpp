@@ -124,17 +124,22 @@ void Elements::connect_nodes(const Mesh& mesh) {
     first_slot_[node + 1] += first_slot_[node];
   }
   slot_.resize(first_slot_.back());
+  stiffness_.resize(slot_.size());
   std::vector<int> next(first_slot_.begin(), first_slot_.end() - 1);
-  const auto connect = [&](const ForceGroup& group) {
+  const auto connect = [&](const ForceGroup& group, const auto& stiffness_of) {
     for (int e = 0; e < group.count(); ++e) {
       const auto nodes = group.nodes_of(e);
-      for (int a = 0; a < group.nodes_per_element(); ++a) slot_[next[nodes[a]]++] = group.force_on(e, a);
+      for (int a = 0; a < group.nodes_per_element(); ++a) {
+        const int slot = next[nodes[a]]++;
+        slot_[slot] = group.force_on(e, a);
+        stiffness_[slot] = stiffness_of(e);
+      }
     }
   };
-  for (const auto& group : groups_) connect(*group);
+  for (const auto& group : groups_) connect(*group, [&](int e) { return group->nodal_stiffness(e); });
   first_load_ = next;
   for (const Faces& faces : faces_) {
-    for (const auto& group : faces.groups) connect(*group);
+    for (const auto& group : faces.groups) connect(*group, [](int) { return nullptr; });
   }
 }
 
@@ -177,15 +182,6 @@ Elements::Extreme Elements::worst() const {
   return worst;
 }
 
-void Elements::bound_frequencies(std::span<const Vec3> x) {
-#pragma omp parallel num_threads(threads())
-  for (const auto& group : groups_) {
-    const int batches = group->batches();
-#pragma omp for schedule(static) nowait
-    for (int batch = 0; batch < batches; ++batch) group->bound_frequencies(batch, x);
-  }
-}
-
 double Elements::largest_squared_frequency(std::span<const Vec3> x, std::span<const double> mass) {
   const std::vector<double> stiffness = nodal_stiffness(x);
   double largest = 0.0;
@@ -200,9 +196,20 @@ double Elements::largest_squared_frequency(std::span<const Vec3> x, std::span<co
 }
 
 std::vector<double> Elements::nodal_stiffness(std::span<const Vec3> x) {
-  bound_frequencies(x);
   std::vector<double> stiffness(nodal_volume_.size(), 0.0);
-  for (const auto& group : groups_) group->add_stiffness(stiffness);
+#pragma omp parallel num_threads(threads())
+  {
+    for (const auto& group : groups_) {
+      const int batches = group->batches();
+#pragma omp for schedule(static) nowait
+      for (int batch = 0; batch < batches; ++batch) group->bound_stiffness(batch, x);
+    }
+#pragma omp barrier
+#pragma omp for schedule(static)
+    for (std::size_t node = 0; node < stiffness.size(); ++node) {
+      for (int k = first_slot_[node]; k < first_load_[node]; ++k) stiffness[node] += *stiffness_[k];
+    }
+  }
   return stiffness;
 }
 

@@ -72,7 +72,6 @@ class Elements {
   void expect_one_region_each() const;
   void lump(std::size_t nodes);
   void connect_nodes(const Mesh& mesh);
-  void bound_frequencies(std::span<const Vec3> x);
   Vec3 sum(int first, int last) const {
     Vec3 sum = Vec3::Zero();
     for (int k = first; k < last; ++k) {
@@ -89,9 +88,10 @@ class Elements {
   std::vector<std::unique_ptr<ElementGroup>> groups_;
   std::vector<Faces> faces_;
   std::vector<double> nodal_volume_, coupled_volume_, nodal_mass_;
-  std::vector<int> first_slot_;      ///< of each node in `slot_`, its elements before its faces
-  std::vector<int> first_load_;      ///< the first of a face
-  std::vector<const double*> slot_;  ///< where the elements of a node keep their force on it
+  std::vector<int> first_slot_;           ///< of each node in `slot_`, its elements before its faces
+  std::vector<int> first_load_;           ///< the first of a face
+  std::vector<const double*> slot_;       ///< where the elements of a node keep their force on it
+  std::vector<const double*> stiffness_;  ///< and their stiffness; of faces none
   int stiffest_node_ = 0;
   std::atomic<bool> out_of_bounds_ = false;
 };

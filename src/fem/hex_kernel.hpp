@@ -14,7 +14,7 @@ namespace drogue::fem {
 inline constexpr const char* hexahedron_expected =
     "the nodes of a convex hexahedron, bottom face counter-clockwise, then top face";
 
-/// A vector field on the twelve edges or, interpolated, on the lines through the Gauss points, numbered like the edges.
+/// A vector field on the twelve edges or on the lines through the Gauss points, numbered like the edges.
 struct LineField {
   Pack at[3][4][3];  ///< [parent direction][line][axis]
 };
@@ -26,27 +26,31 @@ constexpr int line_through(int direction, int point) {
   return direction == 1 ? x + 2 * z : x + 2 * y;
 }
 
-/// Linear interpolation between two places at -1 and 1 to the two Gauss points; it is its own transpose.
+/// From two places at -1 and 1 to the two Gauss points, linearly, but for a factor of (1 + gauss_abscissa) / 2.
 inline void interpolate(Pack& first, Pack& last) {
-  const Pack mean = 0.5 * (first + last);
-  const Pack slope = (0.5 * gauss_abscissa) * (last - first);
-  first = mean - slope;
-  last = mean + slope;
+  constexpr double far = (1.0 - gauss_abscissa) / (1.0 + gauss_abscissa);
+  const Pack at_first = first + far * last;
+  last += far * first;
+  first = at_first;
 }
 
-inline void interpolate_lines(LineField& field) {
+/// From differences along the edges to derivatives along the lines; a symmetric map.
+inline LineField to_lines(LineField field) {
+  constexpr double near = 0.5 * (1.0 + gauss_abscissa), scale = 0.5 * near * near;
   for (auto& direction : field.at) {
     for (int axis = 0; axis < 3; ++axis) {
+      for (int line = 0; line < 4; ++line) direction[line][axis] *= scale;
       interpolate(direction[0][axis], direction[1][axis]);
       interpolate(direction[2][axis], direction[3][axis]);
       interpolate(direction[0][axis], direction[2][axis]);
       interpolate(direction[1][axis], direction[3][axis]);
     }
   }
+  return field;
 }
 
-/// Derivatives of the positions along the edges.
-inline LineField edge_derivatives(const BatchNodes<8>& node, std::span<const Vec3> x) {
+/// Of the positions, last node less first.
+inline LineField edge_differences(const BatchNodes<8>& node, std::span<const Vec3> x) {
   Pack position[8][3];
   for (int a = 0; a < 8; ++a) {
     for (int axis = 0; axis < 3; ++axis) {
@@ -58,7 +62,7 @@ inline LineField edge_derivatives(const BatchNodes<8>& node, std::span<const Vec
     for (int line = 0; line < 4; ++line) {
       const auto [first, last] = hex_edge[direction][line];
       for (int axis = 0; axis < 3; ++axis) {
-        field.at[direction][line][axis] = 0.5 * (position[last][axis] - position[first][axis]);
+        field.at[direction][line][axis] = position[last][axis] - position[first][axis];
       }
     }
   }
@@ -70,10 +74,11 @@ inline Tensor<Pack> at_gauss_point(const LineField& field, int point) {
       [&](int axis, int direction) { return field.at[direction][line_through(direction, point)][axis]; });
 }
 
-inline Tensor<Pack> at_centre(const LineField& edges) {
+/// Derivatives at the centre.
+inline Tensor<Pack> at_centre(const LineField& differences) {
   return tensor<Pack>([&](int axis, int direction) {
-    const auto& lines = edges.at[direction];
-    return 0.25 * (lines[0][axis] + lines[1][axis] + lines[2][axis] + lines[3][axis]);
+    const auto& lines = differences.at[direction];
+    return 0.125 * (lines[0][axis] + lines[1][axis] + lines[2][axis] + lines[3][axis]);
   });
 }
 
@@ -107,11 +112,11 @@ void lump_hexahedron(const Batch& batch, int lane, std::span<double> volume) {
 template <class Law>
 Tensor<Pack> hexahedron_stiffness(const Law& law, const BatchNodes<8>& node, const Tensor<Pack>& a,
                                   std::span<const Vec3> x) {
-  const Tensor<Pack> f = at_centre(edge_derivatives(node, x)) * a;
+  const auto tangent = law.tangent(at_centre(edge_differences(node, x)) * a);
   Tensor<Pack> block[3][3];  // [I][J >= I](j, k)
   for (int i = 0; i < 3; ++i) {
     for (int k = 0; k < 3; ++k) {
-      const Tensor<Pack> dp = law.tangent(f, tensor<Pack>([&](int m, int n) { return m == k ? a(i, n) : Pack{}; }));
+      const Tensor<Pack> dp = tangent(tensor<Pack>([&](int m, int n) { return m == k ? a(i, n) : Pack{}; }));
       for (int j = i; j < 3; ++j) {
         const Vector<Pack> of_k = dp * row(a, j);
         for (int m = 0; m < 3; ++m) block[i][j](m, k) = of_k(m);

@@ -43,21 +43,22 @@ struct NeoHookean {
     return isotropic_stress(*this, f);
   }
 
-  /// dP(F; dF) [Pa], the derivative of the stress in the direction dF.
+  /// The derivative of the stress at F: gives dP(F; dF) [Pa] of a direction dF.
   template <class T>
-  Tensor<T> tangent(const Tensor<T>& f, const Tensor<T>& df) const {
+  auto tangent(const Tensor<T>& f) const {
     const T j = determinant(f);
     const T log_j = log(j);
     const Tensor<T> f_inverse_transposed = (1.0 / j) * cofactor(f);
     const T g = shear * exp(log_j * (-2.0 / 3.0));
     const T i1 = dot(f, f);
     const T pressure = bulk * log_j - g * i1 * (1.0 / 3.0);
-
-    const T dlog_j = dot(f_inverse_transposed, df);
-    const T dg = (-2.0 / 3.0) * g * dlog_j;
-    const T dpressure = bulk * dlog_j - (dg * i1 + 2.0 * g * dot(f, df)) * (1.0 / 3.0);
-    const Tensor<T> df_inverse_transposed = f_inverse_transposed * (transposed(df) * f_inverse_transposed);
-    return g * df + dg * f + dpressure * f_inverse_transposed - pressure * df_inverse_transposed;
+    return [=, *this](const Tensor<T>& df) {
+      const T dlog_j = dot(f_inverse_transposed, df);
+      const T dg = (-2.0 / 3.0) * g * dlog_j;
+      const T dpressure = bulk * dlog_j - (dg * i1 + 2.0 * g * dot(f, df)) * (1.0 / 3.0);
+      const Tensor<T> df_inverse_transposed = f_inverse_transposed * (transposed(df) * f_inverse_transposed);
+      return g * df + dg * f + dpressure * f_inverse_transposed - pressure * df_inverse_transposed;
+    };
   }
 };
 

@@ -33,7 +33,7 @@ double plane_stress_thickness(const Material& material, double a, double b) {
     for (int iteration = 0; iteration < 100; ++iteration) {  // Newton's method, by at most half the thickness at a time
       const Tensor<double> f = diagonal(a, b, t);
       const double stress = law.stress(f)(2, 2);
-      const double slope = law.tangent(f, diagonal(0.0, 0.0, 1.0))(2, 2);
+      const double slope = law.tangent(f)(diagonal(0.0, 0.0, 1.0))(2, 2);
       const double change = slope > 0.0 ? -stress / slope : stress > 0.0 ? -0.5 * t : 0.5 * t;
       t += std::clamp(change, -0.5 * t, 0.5 * t);
       if (std::abs(change) < 1e-13 * t) return t;

@@ -40,12 +40,14 @@ struct SaintVenantKirchhoff {
     return isotropic_stress(*this, f);
   }
 
-  /// dP(F; dF) [Pa], the derivative of the stress in the direction dF.
+  /// The derivative of the stress at F: gives dP(F; dF) [Pa] of a direction dF.
   template <class T>
-  Tensor<T> tangent(const Tensor<T>& f, const Tensor<T>& df) const {
-    const Tensor<T> ft_df = transposed(f) * df;
-    const Tensor<T> de = splat<T>(0.5) * (ft_df + transposed(ft_df));
-    return df * second_piola(green_lagrange(f)) + f * second_piola(de);
+  auto tangent(const Tensor<T>& f) const {
+    return [f, stress = second_piola(green_lagrange(f)), *this](const Tensor<T>& df) {
+      const Tensor<T> ft_df = transposed(f) * df;
+      const Tensor<T> de = splat<T>(0.5) * (ft_df + transposed(ft_df));
+      return df * stress + f * second_piola(de);
+    };
   }
 
  private:

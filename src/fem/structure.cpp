@@ -245,16 +245,22 @@ double Structure::mean_thickness_stretch() const {
 }
 
 std::array<double, 2> Structure::plane_stress_comparison() const {
-  double sum = 0.0, squares = 0.0;
-  const std::size_t elements = data_->thin_elements.size();
-  for (const auto& [nodes, direction, material] : data_->thin_elements) {
+  const auto& elements = data_->thin_elements;
+  if (elements.empty()) return {1.0, 0.0};
+  std::vector<std::array<double, 2>> of_element(elements.size());
+#pragma omp parallel for schedule(static) num_threads(data_->elements.threads())
+  for (std::size_t e = 0; e < elements.size(); ++e) {
+    const auto& [nodes, direction, material] = elements[e];
     const auto [thickness, in_plane] = sheet_stretch(nodes, direction, data_->mesh.nodes, data_->x);
     const double free = plane_stress_thickness(*material, in_plane[0], in_plane[1]);
-    sum += free;
-    squares += std::pow(thickness / free - 1.0, 2);
+    of_element[e] = {free, std::pow(thickness / free - 1.0, 2)};
   }
-  if (elements == 0) return {1.0, 0.0};
-  const auto count = static_cast<double>(elements);
+  double sum = 0.0, squares = 0.0;
+  for (const auto& [free, square] : of_element) {
+    sum += free;
+    squares += square;
+  }
+  const auto count = static_cast<double>(elements.size());
   return {sum / count, std::sqrt(squares / count)};
 }
 
