@@ -96,8 +96,8 @@ Index3 edge_line(const Index3& f, const Index3& g) {
   return first;
 }
 
-std::vector<DiagonalTerm> diagonal_terms(const amr::Forest& forest, int level, const InterfaceLevel& interface) {
-  std::vector<DiagonalTerm> terms;
+ByLeaf<DiagonalTerm> diagonal_terms(const amr::Forest& forest, int level, const InterfaceLevel& interface) {
+  ByLeaf<DiagonalTerm> terms(forest, level);
   const auto all = forest.range(level);
   for (int id = all.begin; id < all.end; ++id)
     for (int along = 0; along < 3; ++along)
@@ -105,8 +105,11 @@ std::vector<DiagonalTerm> diagonal_terms(const amr::Forest& forest, int level, c
         const Index3 f = unit((along + 1) % 3, signs & 1 ? 1 : -1), g = unit((along + 2) % 3, signs & 2 ? 1 : -1);
         const int weight = interface.weight(id, f, g);
         if (weight == 0) continue;
+        int leaf = amr::none;  // there is one, an interface lies between leaves and others
+        for (const int around : {id, interface.beside(id, f), interface.beside(id, g), interface.beside(id, f + g)})
+          if (forest.block(around).kind == amr::Kind::leaf) leaf = around;
         const Index3 first = edge_line(f, g);
-        terms.push_back({id, along, weight, first, f + g, is_in_columns(forest, id, first, along)});
+        terms[leaf].push_back({id, along, weight, first, f + g, is_in_columns(forest, id, first, along)});
       }
   return terms;
 }

@@ -6,7 +6,6 @@
 #pragma once
 
 #include <array>
-#include <vector>
 
 #include "fluid/specification.hpp"
 #include "lbm/by_leaf.hpp"
@@ -28,10 +27,10 @@ struct DiagonalTerm {
   bool in_columns;  ///< MomentField::load_line()
 };
 
-/// What crosses between two levels, as one of them sees it.
+/// What crosses between two levels, as one of them sees it; by a leaf that is beside it.
 struct InterfaceSide {
   ByLeaf<InterfaceFace> faces;
-  std::vector<DiagonalTerm> diagonals;
+  ByLeaf<DiagonalTerm> diagonals;
 };
 
 struct Interface {

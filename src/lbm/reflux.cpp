@@ -61,8 +61,7 @@ double sum_of_lanes(const V& v) {
 }  // namespace
 
 template <class S>
-Crossing<S>::Crossing(const amr::Forest& forest, bool third_order, InterfaceSide side)
-    : forest_(forest), third_order_(third_order), side_(std::move(side)) {
+Crossing<S>::Crossing(bool third_order, InterfaceSide side) : third_order_(third_order), side_(std::move(side)) {
   through_leaf_.resize(std::distance(side_.faces.begin(), side_.faces.end()));
 }
 
@@ -103,35 +102,34 @@ void Crossing<S>::count(int leaf, const MomentField<S>& field, const Relaxation&
   const Real keep = static_cast<Real>(1.0 - 1.0 / relaxation.tau);
   Vec<Real> mass{};
   for (const InterfaceFace& face : side_.faces[leaf]) mass += through(field, face, keep);
+  for (const DiagonalTerm& term : side_.diagonals[leaf]) mass += entering(field, term, keep);
   through_leaf_[side_.faces.index(leaf)] = sum_of_lanes(mass);
 }
 
 template <class S>
-double Crossing<S>::total(const MomentField<S>& field, const Relaxation& relaxation) const {
-  const Real keep = static_cast<Real>(1.0 - 1.0 / relaxation.tau);
-  return std::accumulate(through_leaf_.begin(), through_leaf_.end(), 0.0) +
-         sum_over(side_.diagonals, [&](const DiagonalTerm& t) { return sum_of_lanes(entering(field, t, keep)); });
+double Crossing<S>::total() const {
+  return std::accumulate(through_leaf_.begin(), through_leaf_.end(), 0.0);
 }
 
 template <class S>
 Reflux<S>::Reflux(const amr::Forest& forest, const fluid::Specification& specification, int coarse)
-    : Reflux(forest, specification.collision != fluid::Collision::bgk, plan_interface(forest, specification, coarse)) {}
+    : Reflux(specification.collision != fluid::Collision::bgk, plan_interface(forest, specification, coarse)) {}
 
 template <class S>
-Reflux<S>::Reflux(const amr::Forest& forest, bool third_order, Interface plan)
-    : coarse_(forest, third_order, std::move(plan.coarse)), fine_(forest, third_order, std::move(plan.fine)) {
+Reflux<S>::Reflux(bool third_order, Interface plan)
+    : coarse_(third_order, std::move(plan.coarse)), fine_(third_order, std::move(plan.fine)) {
   for (const auto& faces : coarse_.faces()) cells_ += static_cast<int>(faces.size()) * n * n;
 }
 
 template <class S>
-void Reflux<S>::end_coarse_step(const MomentField<S>& field, const Relaxation& relaxation) {
-  counted_ = -coarse_.total(field, relaxation);
+void Reflux<S>::end_coarse_step() {
+  counted_ = -coarse_.total();
 }
 
 template <class S>
-void Reflux<S>::end_fine_step(const MomentField<S>& field, const Relaxation& relaxation) {
+void Reflux<S>::end_fine_step() {
   constexpr double volume = 1.0 / 8.0;
-  counted_ += volume * fine_.total(field, relaxation);
+  counted_ += volume * fine_.total();
 }
 
 template <class S>

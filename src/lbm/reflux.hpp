@@ -29,21 +29,20 @@ namespace drogue::lbm {
 template <class S>
 class Crossing {
  public:
-  Crossing(const amr::Forest& forest, bool third_order, InterfaceSide side);
+  Crossing(bool third_order, InterfaceSide side);
 
   const ByLeaf<InterfaceFace>& faces() const { return side_.faces; }
   /// Counts what a step from `field`, rims and boundary blocks filled, carries through the faces of one leaf: cheapest
   /// while that leaf is in the cache. Leaves may be counted in parallel.
   void count(int leaf, const MomentField<S>& field, const Relaxation& relaxation);
   /// All that the step carries across, once all leaves have been counted; in cells of rho 1.
-  double total(const MomentField<S>& field, const Relaxation& relaxation) const;
+  double total() const;
 
  private:
   using Real = typename S::Real;
   Vec<Real> through(const MomentField<S>& field, const InterfaceFace& face, Real keep) const;
   Vec<Real> entering(const MomentField<S>& field, const DiagonalTerm& term, Real keep) const;
 
-  const amr::Forest& forest_;
   bool third_order_;
   InterfaceSide side_;
   std::vector<double> through_leaf_;
@@ -58,8 +57,8 @@ class Reflux {
   Crossing<S>& of_coarse() { return coarse_; }
   Crossing<S>& of_fine() { return fine_; }
   /// To be called when all leaves have been counted.
-  void end_coarse_step(const MomentField<S>& field, const Relaxation& relaxation);
-  void end_fine_step(const MomentField<S>& field, const Relaxation& relaxation);
+  void end_coarse_step();
+  void end_fine_step();
   /// Gives the coarse leaves of `field` what the last step has left.
   void settle(MomentField<S>& field);
   /// Mass on its way between the levels, in coarse cells of rho 1.
@@ -67,7 +66,7 @@ class Reflux {
   void transfer_state(Archive& archive);
 
  private:
-  Reflux(const amr::Forest& forest, bool third_order, Interface plan);
+  Reflux(bool third_order, Interface plan);
 
   Crossing<S> coarse_, fine_;
   int cells_ = 0;         // of coarse leaves beside the interface, once for each face

@@ -145,8 +145,8 @@ void BasicSolver<S>::stream_and_collide(int level) {
     }
   }
   if (diverged) report_divergence(level);
-  if (level > 0) reflux_[level - 1].end_fine_step(field_[l.now], l.relaxation);
-  if (level < forest_.finest()) reflux_[level].end_coarse_step(field_[l.now], l.relaxation);
+  if (level > 0) reflux_[level - 1].end_fine_step();
+  if (level < forest_.finest()) reflux_[level].end_coarse_step();
   statistics_.cell_updates += std::int64_t{leaves.size()} * amr::block_cells;
   const double speed = std::sqrt(max_speed_squared);
   statistics_.max_speed = std::max(statistics_.max_speed, speed * units_.velocity);
