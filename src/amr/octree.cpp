@@ -6,12 +6,16 @@
 #include <p8est_bits.h>
 #include <p8est_extended.h>
 
+#include <fmt/format.h>
+
 #include <cmath>
+#include <cstdint>
 #include <exception>
 #include <memory>
 
 #include "amr/forest.hpp"
 #include "amr/mpi_runtime.hpp"
+#include "core/error.hpp"
 
 namespace drogue::amr {
 namespace {
@@ -47,6 +51,7 @@ struct Refinement {
   const RefineBlock& refine;
   const std::vector<Index3>& places;
   int finest_level;
+  std::int64_t blocks = 0;     // leaves so far
   std::exception_ptr failure;  // must not cross p4est, which is C
 };
 
@@ -54,7 +59,12 @@ int refine_quadrant(p8est_t* octree, p4est_topidx_t tree, p8est_quadrant_t* quad
   auto& refinement = *static_cast<Refinement*>(octree->user_pointer);
   if (refinement.failure || quadrant->level >= refinement.finest_level) return 0;
   try {
-    return refinement.refine(quadrant->level, block_index(*quadrant, refinement.places[tree]));
+    const bool refined = refinement.refine(quadrant->level, block_index(*quadrant, refinement.places[tree]));
+    if (refined) refinement.blocks += P8EST_CHILDREN - 1;
+    if (refinement.blocks > most_blocks) {
+      throw InputError(fmt::format("the grid has more than {} blocks of {}^3 cells", most_blocks, block_size));
+    }
+    return refined;
   } catch (...) {
     refinement.failure = std::current_exception();
     return 0;
@@ -82,7 +92,8 @@ std::vector<Leaf> balanced_leaves(const Index3& trees, const std::array<bool, 3>
   const Brick brick(p8est_connectivity_new_brick(trees[0], trees[1], trees[2], periodic[0], periodic[1], periodic[2]));
   const std::vector<Index3> places = tree_places(*brick);
 
-  Refinement refinement{refine, places, finest_level, nullptr};
+  Refinement refinement{
+      .refine = refine, .places = places, .finest_level = finest_level, .blocks = brick->num_trees, .failure = nullptr};
   const Octree octree(p8est_new_ext(MPI_COMM_SELF, brick.get(), 0, 0, 1, 0, nullptr, &refinement));
   p8est_refine(octree.get(), 1, refine_quadrant, nullptr);
   if (refinement.failure) std::rethrow_exception(refinement.failure);

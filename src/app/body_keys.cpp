@@ -3,6 +3,8 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
+
 namespace drogue::app {
 
 std::string read_name(Section& body) {
@@ -28,8 +30,12 @@ Formulas read_formulas_of_time(Section& section, const std::string& name, const 
 }
 
 void expect_time_alone(const Section& section, const std::string& name, const Expression& formula) {
-  if (!formula.depends_on_place()) return;
-  section.fail(name, fmt::format("= \"{}\" depends on the place; expected a formula in t alone", formula.text()));
+  if (formula.depends_on_place()) {
+    section.fail(name, fmt::format("= \"{}\" depends on the place; expected a formula in t alone", formula.text()));
+  }
+  if (!std::isfinite(formula(Vec3::Zero(), 0.0))) {
+    section.fail(name, fmt::format("= \"{}\" is not finite at t = 0", formula.text()));
+  }
 }
 
 }  // namespace drogue::app

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <vector>
 
+#include "amr/octree.hpp"
 #include "app/results.hpp"
 #include "app/value.hpp"
 #include "core/error.hpp"
@@ -50,6 +51,14 @@ void check_domain(const Case& c) {
                        face_names[other ^ 1]));
     }
   }
+}
+
+void check_size(const Case& c) {
+  const Eigen::Array3d blocks = c.domain.box.size().array() / (amr::block_size * c.domain.coarsest);
+  if (blocks.prod() <= amr::most_blocks) return;
+  fail(c, "grid.coarsest",
+       fmt::format("= {} makes {:.3g} blocks of {}^3 cells; expected at most {}", c.domain.coarsest, blocks.prod(),
+                   amr::block_size, amr::most_blocks));
 }
 
 void check_spacing(const Case& c, const std::string& key, double spacing) {
@@ -109,7 +118,23 @@ double largest_speed(const Case& c) {
   return largest;
 }
 
+/// What enters must be a number at all times; what depends on the place may be singular where no cell is.
+void check_velocities(const Case& c) {
+  constexpr int samples = 20;
+  for (std::size_t f = 0; f < face_names.size(); ++f) {
+    for (const Expression& component : c.fluid.face[f].velocity) {
+      for (int k = 0; k <= samples && !component.depends_on_place(); ++k) {
+        const double time = c.end * k / samples;
+        if (std::isfinite(component(Vec3::Zero(), time))) continue;
+        fail(c, fmt::format("domain.{}.velocity", face_names[f]),
+             fmt::format("has a component \"{}\" that is not finite at t = {} s", component.text(), time));
+      }
+    }
+  }
+}
+
 void check_fluid(const Case& c) {
+  check_velocities(c);
   const double mach = std::sqrt(3.0) * c.fluid.lattice_velocity;
   if (mach > largest_mach) {
     fail(c, "fluid.lattice_velocity",
@@ -127,12 +152,13 @@ void check_fluid(const Case& c) {
   for (int level = 0; level <= level_of(c.domain.coarsest, c.finest); ++level) {
     const double tau = relaxation_time(c, level);
     if (tau <= largest_tau && tau - 0.5 >= smallest_tau_excess) continue;
-    fail(
-        c, "fluid.viscosity",
-        fmt::format("= {} makes the relaxation time {:.10g} on level {} (cells of {} m); expected {} to {}; change the "
-                    "viscosity, the spacing or fluid.lattice_velocity",
-                    c.fluid.viscosity, tau, level, std::ldexp(c.domain.coarsest, -level), 0.5 + smallest_tau_excess,
-                    largest_tau));
+    const bool given = c.origin.contains("fluid.viscosity");
+    fail(c, given ? "fluid.viscosity" : "fluid.reynolds",
+         fmt::format("{} the relaxation time {:.10g} on level {} (cells of {} m); expected {} to {}; change the "
+                     "viscosity, the spacing or fluid.lattice_velocity",
+                     given ? fmt::format("= {} makes", c.fluid.viscosity)
+                           : fmt::format("makes the viscosity {:.4g} m^2/s and", c.fluid.viscosity),
+                     tau, level, std::ldexp(c.domain.coarsest, -level), 0.5 + smallest_tau_excess, largest_tau));
   }
   const double tau = relaxation_time(c, level_of(c.domain.coarsest, c.finest));
   if (c.fluid.eddy_viscosity != fluid::EddyViscosity::none && tau > lbm::largest_tau_with_eddy_viscosity) {
@@ -238,6 +264,10 @@ void check_results(const Case& c) {
          fmt::format("= {} does not lie within the run, 0 to {} s (time.end)", write_value(c.results.stable_window),
                      c.end));
   }
+  if (c.results.peak_from >= c.end) {
+    fail(c, "results.peak_from",
+         fmt::format("= {} leaves no time for a peak; expected less than time.end = {} s", c.results.peak_from, c.end));
+  }
   std::vector<std::string> bodies;
   for (const Body& body : c.bodies) bodies.push_back(body.name);
   if (!c.bodies.empty() && std::ranges::find(bodies, c.results.body) == bodies.end()) {
@@ -272,6 +302,7 @@ void at_key(const Case& c, const std::string& key, const std::function<void()>& 
 void check_case(const Case& c) {
   if (c.has_fluid()) {
     check_domain(c);
+    check_size(c);
     check_grid(c);
     check_fluid(c);
   } else if (c.bodies.empty()) {

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "app/body_keys.hpp"
 #include "app/body_reader.hpp"
 #include "app/case_checks.hpp"
 #include "app/measure_reader.hpp"
@@ -168,11 +169,8 @@ void read_fluid(Section& section, Case& c) {
            "cells that reference_velocity crosses in a time step; sets the step and the Mach number, sqrt(3) times it",
        .fallback = 0.05,
        .range = positive});
-  fluid.force = section.get<Formulas>(
-      "force", {.unit = "N/m^3", .doc = "on the whole fluid, formulas of t", .fallback = Formulas{}});
-  if (std::ranges::any_of(fluid.force, &Expression::depends_on_place)) {
-    section.fail("force", "depends on the place; expected formulas of t");
-  }
+  fluid.force = read_formulas_of_time(
+      section, "force", {.unit = "N/m^3", .doc = "on the whole fluid, formulas of t", .fallback = Formulas{}});
   read_collision(section, fluid);
   read_initial_state(section, c);
 }

@@ -6,12 +6,14 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <utility>
 
 #include "app/inspect.hpp"
 #include "app/plot.hpp"
 #include "app/run.hpp"
+#include "app/section.hpp"
 #include "app/version.hpp"
 #include "core/error.hpp"
 #include "core/nearest_name.hpp"
@@ -37,6 +39,15 @@ namespace fs = std::filesystem;
   words.push_back(nullptr);
   execv(name.c_str(), words.data());
   throw InputError(fmt::format("{} cannot be started", name));
+}
+
+CLI::Validator number_within(const Range& range) {
+  const auto refuse = [range](const std::string& text) {
+    double value = 0.0;
+    const bool fits = CLI::detail::lexical_cast(text, value) && std::isfinite(value) && range.holds(value);
+    return fits ? "" : fmt::format("\"{}\" is no number {}", text, range.text());
+  };
+  return {refuse, ""};
 }
 
 void refuse_unknown_command(const CLI::App& app, const std::vector<std::string>& arguments) {
@@ -69,6 +80,12 @@ std::optional<int> parse(CLI::App& app, std::vector<std::string> arguments) {
   return std::nullopt;
 }
 
+void add_threads(CLI::App& command, std::optional<int>& threads) {
+  // the run-time library of OpenMP crashes on very many
+  command.add_option("--threads", threads, "number of threads (default: all)")
+      ->check(number_within({.min = 1, .max = 1024}));
+}
+
 int run_command(const std::string& program, std::vector<std::string> arguments) {
   if (!arguments.empty() && arguments.front() == "render") {
     become_render({arguments.begin() + 1, arguments.end()});
@@ -82,8 +99,8 @@ int run_command(const std::string& program, std::vector<std::string> arguments) 
   CLI::App* run_command = app.add_subcommand("run", "run a case");
   add_case(run_command, run.path, run.overrides);
   run_command->add_option("-o,--output", run.folder, "folder of the run (default: runs/NAME)");
-  run_command->add_option("--threads", run.threads, "number of threads (default: all)")->check(CLI::PositiveNumber);
-  run_command->add_option("--until", run.until, "stop at this time [s]")->check(CLI::PositiveNumber);
+  add_threads(*run_command, run.threads);
+  run_command->add_option("--until", run.until, "stop at this time [s]")->check(number_within(positive));
   CLI::Option* force = run_command->add_flag("--force", run.force, "replace a run that is already there");
   run_command->add_flag("--continue", run.resume, "go on with the run in that folder, from its last checkpoint")
       ->excludes(force);

@@ -16,6 +16,9 @@ namespace drogue::app {
 /// InputError.
 std::optional<int> parse(CLI::App& app, std::vector<std::string> arguments);
 
+/// Adds --threads.
+void add_threads(CLI::App& command, std::optional<int>& threads);
+
 /// Runs the command that `arguments` (program name left out) ask for and returns the exit code. Throws InputError and
 /// Diverged. `program` is how the executable was called: drogue-render is looked for beside it.
 int run_command(const std::string& program, std::vector<std::string> arguments);

@@ -111,7 +111,7 @@ toml::node* element(toml::array& array, const std::string& name) {
 /// One step down a dotted path; makes the tables that are not there yet.
 toml::node& descend(toml::node& node, const std::string& name, const std::string& so_far, const std::string& origin) {
   if (toml::table* table = node.as_table()) {
-    if (!table->contains(name)) table->insert_or_assign(name, toml::table{});
+    if (!table->contains(name)) table->insert_or_assign(name, toml::parse("", origin));
     return *table->get(name);
   }
   if (toml::array* array = node.as_array()) {
@@ -137,11 +137,10 @@ void assign(toml::node& node, const std::string& name, toml::node&& value, const
 void apply_override(toml::table& root, const std::string& assignment) {
   const std::string origin = std::string(override_prefix) + assignment;
   const std::size_t equals = assignment.find('=');
-  if (equals == 0 || equals == std::string::npos) {
-    throw InputError(fmt::format("{}: expected key=value", origin));
-  }
   std::string key = assignment.substr(0, equals);
   key.erase(key.find_last_not_of(' ') + 1);
+  const bool nameless = key.empty() || key.starts_with('.') || key.ends_with('.') || key.find("..") != key.npos;
+  if (nameless || equals == std::string::npos) throw InputError(fmt::format("{}: expected key=value", origin));
   toml::table value = parse_value(std::string_view(assignment).substr(equals + 1), origin);
 
   toml::node* node = &root;

@@ -23,7 +23,9 @@ std::vector<int> find_nodes(const Case& c, const std::string& key, const NodesNa
   return found;
 }
 
-std::string hold_key(const Body& body) { return fmt::format("body.{}.hold", body.name); }
+std::string nodes_key(const Body& body, const char* of, std::size_t number) {
+  return fmt::format("body.{}.{}.{}.nodes", body.name, of, number);
+}
 
 /// Region of a cable that is described; its elements are as much longer than in the mesh as it is.
 fem::Region cable_region(const CableDescription& cable, const fem::Mesh& mesh) {
@@ -42,11 +44,12 @@ fem::Model make_model(const Case& c, const Body& description, const fem::Mesh& m
   fem::Model model{mesh, regions_of(body, mesh), {}, body.structure};
   if (c.contact) model.options.integrator = fem::Integrator::explicit_scheme;  // the only one that knows contact
   for (const HoldDescription& hold : body.holds) {
+    const std::string key = nodes_key(description, "hold", model.loads.holds.size());
     model.loads.holds.push_back(hold.hold);
-    model.loads.holds.back().nodes = find_nodes(c, hold_key(description), hold.nodes, mesh);
+    model.loads.holds.back().nodes = find_nodes(c, key, hold.nodes, mesh);
   }
   for (const ForceDescription& force : body.forces) {
-    const std::string key = fmt::format("body.{}.force", description.name);
+    const std::string key = nodes_key(description, "force", model.loads.forces.size());
     model.loads.forces.push_back({find_nodes(c, key, force.nodes, mesh), force.force});
   }
   for (const PointDescription& point : body.points) {
@@ -60,8 +63,9 @@ fem::Model make_model(const Case& c, const Body& description, const fem::Mesh& m
 }
 
 fem::Structure make_structure(const Case& c, const Body& body, const fem::Mesh& mesh) {
+  fem::Model model = make_model(c, body, mesh);
   std::optional<fem::Structure> structure;
-  at_key(c, "body." + body.name, [&] { structure.emplace(make_model(c, body, mesh)); });
+  at_key(c, "body." + body.name, [&] { structure.emplace(std::move(model)); });
   return std::move(*structure);
 }
 
@@ -170,7 +174,7 @@ std::string CoupledElasticBody::report(const Case& c) const {
   text += fmt::format("\n        {}; stable explicit step {:.3g} s, {:.0f} sub-steps in a {} of {:.3g} s\n", solver(),
                       s.stable_step(), s.explicit_substeps(step), coupling_ ? "fine step" : "step", step);
   for (const auto& [nodes, hold] : elastic(description).holds) {
-    const std::vector<int> held = find_nodes(c, hold_key(description), nodes, s.mesh());
+    const std::vector<int> held = nodes_named(s.mesh(), nodes.name, nodes.patch);
     double volume = 0.0;
     for (int node : held) volume += s.volume()[node];
     text += fmt::format("        holds {}: {} nodes, {}\n", nodes.name, held.size(),

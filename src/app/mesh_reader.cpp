@@ -22,6 +22,12 @@ constexpr const char* elements_doc =
     "along the two edges (and through the thickness, of a plate or block); of a disk: across the square in its middle, "
     "and layers around it";
 const Range whole_positive{.min = 1, .max = 100000};
+constexpr double most_elements = 1e7;
+
+void expect_at_most(Section& mesh, double elements) {
+  if (elements <= most_elements) return;
+  mesh.fail("elements", fmt::format("makes {:.3g} elements; expected at most {:.0e}", elements, most_elements));
+}
 
 fs::path read_mesh_file(Section& body) {
   const fs::path file = body.get<fs::path>(
@@ -42,6 +48,7 @@ MeshDescription read_plate(Section& mesh) {
       "size", {.unit = "m", .doc = "edges, along the axes that follow the normal cyclically", .range = positive});
   plate.thickness = mesh.get<double>("thickness", {.unit = "m", .doc = "along the normal", .range = positive});
   plate.elements = mesh.get<Index3>("elements", {.doc = elements_doc, .range = whole_positive});
+  expect_at_most(mesh, 1.0 * plate.elements[0] * plate.elements[1] * plate.elements[2]);
   return plate;
 }
 
@@ -57,6 +64,7 @@ MeshDescription read_sheet(Section& mesh) {
   fem::SheetDescription sheet;
   sheet.corner = read_corners(mesh);
   sheet.elements = mesh.get<Index2>("elements", {.doc = elements_doc, .range = whole_positive});
+  expect_at_most(mesh, 1.0 * sheet.elements[0] * sheet.elements[1]);
   sheet.triangles = read_triangles(mesh);
   return sheet;
 }
@@ -67,6 +75,7 @@ MeshDescription read_disk(Section& mesh) {
   disk.normal = mesh.choose("normal", axes, {.doc = "axis the plate or disk is thin in"});
   disk.radius = mesh.get<double>("radius", {.unit = "m", .doc = "of a disk", .range = positive});
   disk.elements = mesh.get<Index2>("elements", {.doc = elements_doc, .range = whole_positive});
+  expect_at_most(mesh, disk.elements[0] * (disk.elements[0] + 4.0 * disk.elements[1]));
   disk.triangles = read_triangles(mesh);
   return disk;
 }
@@ -76,6 +85,7 @@ MeshDescription read_block(Section& mesh) {
   block.base.corner = read_corners(mesh);
   block.way = mesh.get<Vec3>("way", {.unit = "m", .doc = "that the base of a block sweeps, towards its normal"});
   const Index3 elements = mesh.get<Index3>("elements", {.doc = elements_doc, .range = whole_positive});
+  expect_at_most(mesh, 1.0 * elements[0] * elements[1] * elements[2]);
   block.base.elements = {elements[0], elements[1]};
   block.layers = elements[2];
   return block;

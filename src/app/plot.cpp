@@ -137,6 +137,7 @@ std::string plot_run(const fs::path& folder, fs::path picture) {
     throw InputError(fmt::format("{} has nothing to plot: no body, and nothing in [measure]", folder.string()));
   }
   if (picture.empty()) picture = folder / "plot.png";
+  if (picture.extension() != ".png") throw InputError(fmt::format("{}; expected a file .png", picture.string()));
   return io::draw(figure, picture) ? fmt::format("{}\n", picture.string()) : fmt::format("{}\n", io::no_gnuplot);
 }
 

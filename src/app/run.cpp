@@ -6,6 +6,7 @@
 #include <sys/resource.h>
 
 #include <exception>
+#include <stdexcept>
 
 #include "app/case_changes.hpp"
 #include "app/case_reader.hpp"
@@ -50,10 +51,10 @@ void announce(const Case& c, const Simulation& simulation, const fs::path& folde
            folder.string());
 }
 
-/// A folder for a new run, or that of the run that is continued, as it was at its last checkpoint.
+/// An empty folder for a new run, or that of the run that is continued, as it was at its last checkpoint.
 void open_run(bool resume, const Case& c, const fs::path& folder, Simulation& simulation, Recorder& recorder,
               Checkpoints& checkpoints, Log& log) {
-  if (!resume) prepare_run_folder(folder);
+  if (!resume) clear_run_folder(folder);
   log.open(folder / "log.txt", resume);
   if (resume) checkpoints.restore();
   write_text(folder / "case.resolved.toml", c.resolved);
@@ -141,10 +142,14 @@ int run_case(const RunOptions& options) {
   Simulation simulation(c, folder);
 
   // 4. The folder of the run.
+  const FolderLock lock(folder);
   Log log(options.quiet);
   Recorder recorder(c, simulation, folder);
   Checkpoints checkpoints(folder, c.output.checkpoint, simulation, recorder, wall, log);
   open_run(options.resume, c, folder, simulation, recorder, checkpoints, log);
+  if (simulation.time() >= end) {
+    log.info("the run has reached {:.6g} s; --until goes on beyond it", simulation.time());
+  }
 
   // 5. Time.
   Ending ending = Ending::failed;
@@ -159,9 +164,12 @@ int run_case(const RunOptions& options) {
     ending = Ending::diverged;
     message = error.what() + checkpoints.hint();
     failure = std::make_exception_ptr(Diverged(message));
-  } catch (const std::exception& error) {
+  } catch (const InputError& error) {
     message = error.what();
     failure = std::current_exception();
+  } catch (const std::exception& error) {
+    message = error.what() + checkpoints.hint();
+    failure = std::make_exception_ptr(std::runtime_error(message));
   }
 
   // 6. What came of it.

@@ -1,9 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/run_folder.hpp"
 
+#include <fcntl.h>
 #include <fmt/format.h>
+#include <sys/file.h>
+#include <unistd.h>
 
 #include <array>
+#include <cerrno>
 #include <fstream>
 #include <nlohmann/json.hpp>
 #include <string>
@@ -54,15 +58,30 @@ void refuse_other_run(const fs::path& folder, bool force) {
                                !finished && can_continue ? "--continue to go on with it, " : ""));
 }
 
-void prepare_run_folder(const fs::path& folder) {
+FolderLock::FolderLock(const fs::path& folder) {
   std::error_code error;
   fs::create_directories(folder, error);
   if (error) throw InputError(fmt::format("{} cannot be made: {}", folder.string(), error.message()));
+  descriptor_ = open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+  // some network file systems know no locks
+  if (flock(descriptor_, LOCK_EX | LOCK_NB) == 0 || errno != EWOULDBLOCK) return;
+  close(descriptor_);
+  throw InputError(fmt::format("another run writes to {}; give another folder with -o", folder.string()));
+}
+
+FolderLock::~FolderLock() { close(descriptor_); }
+
+void clear_run_folder(const fs::path& folder) {
   std::vector<fs::path> old;
   for (const auto& entry : fs::directory_iterator(folder)) {
     if (entry.is_regular_file() && belongs_to_run(entry.path().filename().string())) old.push_back(entry.path());
   }
-  for (const fs::path& file : old) fs::remove(file);
+  std::error_code error;
+  for (const fs::path& file : old) {
+    if (!fs::remove(file, error) && error) {
+      throw InputError(fmt::format("{} of an earlier run cannot be removed: {}", file.string(), error.message()));
+    }
+  }
 }
 
 void write_text(const fs::path& file, const std::string& text) {

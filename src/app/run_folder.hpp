@@ -10,8 +10,21 @@ namespace drogue::app {
 /// Throws InputError if the folder holds a run, finished or not, unless `force`; says whether it can be continued.
 void refuse_other_run(const std::filesystem::path& folder, bool force);
 
-/// Makes the folder and removes what an earlier run left in it; other files stay. Throws InputError if it cannot.
-void prepare_run_folder(const std::filesystem::path& folder);
+/// Makes a folder, and keeps other runs out of it while it lives. The system lets go however the process ends.
+class FolderLock {
+ public:
+  /// Throws InputError if another run writes to the folder, or it cannot be made.
+  explicit FolderLock(const std::filesystem::path& folder);
+  ~FolderLock();
+  FolderLock(const FolderLock&) = delete;
+  FolderLock& operator=(const FolderLock&) = delete;
+
+ private:
+  int descriptor_;
+};
+
+/// Removes what an earlier run left in the folder; other files stay. Throws InputError if it cannot.
+void clear_run_folder(const std::filesystem::path& folder);
 
 /// Throws InputError if it cannot.
 void write_text(const std::filesystem::path& file, const std::string& text);

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <map>
+#include <optional>
 #include <string>
 #include <utility>
 
@@ -62,11 +63,13 @@ amr::Forest make_forest(const Case& c, const Meshes& meshes) {
         region.box ? amr::refine_box(*region.box, coarsest, region.spacing)
                    : amr::refine_near(points.at(region.body), region.distance, region.sweep, coarsest, region.spacing));
   }
-  amr::Forest forest(c.domain, level_of(coarsest, c.finest), amr::any_of(std::move(criteria)));
+  std::optional<amr::Forest> forest;
+  at_key(c, "grid.finest",
+         [&] { forest.emplace(c.domain, level_of(coarsest, c.finest), amr::any_of(std::move(criteria))); });
   for (const Body& body : c.bodies) {
-    for (const auto& [part, place] : parts.at(body.name)) check_body_in_grid(c, body, part, place, forest);
+    for (const auto& [part, place] : parts.at(body.name)) check_body_in_grid(c, body, part, place, *forest);
   }
-  return forest;
+  return std::move(*forest);
 }
 
 std::vector<std::unique_ptr<CoupledBody>> make_bodies(const Case& c, const Meshes& meshes, const amr::Forest* forest) {

@@ -22,11 +22,14 @@ std::string text(const std::optional<double>& value) { return value ? fmt::forma
 
 std::string verdict(const Comparison& c) {
   const Reference& r = c.reference;
-  const char* agrees = c.agrees ? "agrees" : "differs";
-  if (r.is_bound()) return fmt::format("   {:>10}  {} ({})", fmt::format("< {:.4g}", r.within), agrees, r.source);
-  const std::string found =
-      c.value ? fmt::format("{:+.1f} %, {}", 100.0 * c.difference, agrees) : "the run ended before";
-  return fmt::format("   {:>10}  {} (within {:.0f} %; {})", text(r.value), found, 100.0 * r.within, r.source);
+  const std::string expected = r.is_bound() ? fmt::format("< {:.4g}", r.within) : text(r.value);
+  std::string found = !c.value ? "the run ended before" : c.agrees ? "agrees" : "differs";
+  if (c.value && !r.is_bound()) found = fmt::format("{:+.1f} %, {}", 100.0 * c.difference, found);
+  std::vector<std::string> notes;
+  if (!r.is_bound()) notes.push_back(fmt::format("within {:.3g} %", 100.0 * r.within));
+  if (!r.source.empty()) notes.push_back(r.source);
+  if (!notes.empty()) found += fmt::format(" ({})", fmt::join(notes, "; "));
+  return fmt::format("   {:>10}  {}", expected, found);
 }
 
 Json to_json(const Comparison& c) {
@@ -42,6 +45,20 @@ Json to_json(const Comparison& c) {
   json["agrees"] = c.agrees;
   json["source"] = r.source;
   return json;
+}
+
+void print_cost(const Summary& s, Log& log) {
+  const std::int64_t cells = std::accumulate(s.cells_per_level.begin(), s.cells_per_level.end(), std::int64_t{0});
+  const double gibibytes = static_cast<double>(s.peak_rss_bytes) / std::pow(1024.0, 3);
+  if (cells == 0) {
+    log.info("{:.4g} s in {:.1f} s, {:.2f} GiB", s.t_end, s.wall_seconds, gibibytes);
+    return;
+  }
+  log.info("{:.4g} s of flow in {:.1f} s: {:.2f} million cells, {:.4g} updates, {:.0f} MLUPS, {:.2f} GiB", s.t_end,
+           s.wall_seconds, 1e-6 * static_cast<double>(cells), static_cast<double>(s.cell_updates), s.mlups, gibibytes);
+  std::vector<std::string> parts;
+  for (const auto& [part, share] : s.time_share) parts.push_back(fmt::format("{} {:.0f} %", part, 100.0 * share));
+  log.info("time: {}", fmt::join(parts, ", "));
 }
 
 }  // namespace
@@ -95,19 +112,8 @@ RunNumbers read_numbers(const std::filesystem::path& file) {
 }
 
 void print_summary(const Summary& s, Log& log) {
-  const std::int64_t cells = std::accumulate(s.cells_per_level.begin(), s.cells_per_level.end(), std::int64_t{0});
   log.info("");
-  if (cells == 0) {
-    log.info("{:.4g} s in {:.1f} s, {:.2f} GiB", s.t_end, s.wall_seconds,
-             static_cast<double>(s.peak_rss_bytes) / std::pow(1024.0, 3));
-    return;
-  }
-  log.info("{:.4g} s of flow in {:.1f} s: {:.2f} million cells, {:.4g} updates, {:.0f} MLUPS, {:.2f} GiB", s.t_end,
-           s.wall_seconds, 1e-6 * static_cast<double>(cells), static_cast<double>(s.cell_updates), s.mlups,
-           static_cast<double>(s.peak_rss_bytes) / std::pow(1024.0, 3));
-  std::vector<std::string> parts;
-  for (const auto& [part, share] : s.time_share) parts.push_back(fmt::format("{} {:.0f} %", part, 100.0 * share));
-  log.info("time: {}", fmt::join(parts, ", "));
+  print_cost(s, log);
   if (s.results.empty()) return;
   log.info("");
   log.info("{:<24} {:>10}   {:>10}  {}", "result", "value", "reference", "difference");

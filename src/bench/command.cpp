@@ -67,7 +67,7 @@ int run_command(std::vector<std::string> arguments) {
   app.add_option("FAMILY", names, "kernel, accuracy, stability (default: all)");
   app.add_option("-o,--output", options.folder, "folder of tables and figures (default: runs/bench)");
   app.add_option("--only", options.only, "a part of a family, e.g. a flow; may be repeated")->allow_extra_args(false);
-  app.add_option("--threads", threads, "number of threads (default: all)")->check(CLI::PositiveNumber);
+  app::add_threads(app, threads);
   app.add_flag("--quick", options.quick, "seconds instead of minutes: to see that it works");
   if (const auto exit_code = app::parse(app, std::move(arguments))) return *exit_code;
 

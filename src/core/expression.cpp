@@ -23,6 +23,8 @@ std::string reason(const mu::ParserError& error) {
       return "ends too early";
     case mu::ecMISSING_PARENS:
       return "lacks a closing parenthesis";
+    case mu::ecEXPRESSION_TOO_LONG:
+      return "is too long";
     default:
       return fmt::format("has an unexpected \"{}\" at position {}", error.GetToken(), error.GetPos() + 1);
   }
@@ -48,8 +50,8 @@ Expression::Expression(double constant) : text_(fmt::format("{}", constant)), co
 
 Expression::Expression(const std::string& formula) : text_(formula) {
   if (formula.find_first_not_of(" \t\n") == std::string::npos) throw InputError("an empty formula has no value");
-  auto parser = std::make_unique<Parser>(formula);
   try {
+    auto parser = std::make_unique<Parser>(formula);
     constant_ = parser->parser.Eval();
     const mu::varmap_type& used = parser->parser.GetUsedVar();
     depends_on_time_ = used.contains("t");

@@ -116,6 +116,7 @@ Hdf5Handle Hdf5File::make_dataset(const std::string& path, hid_t type, hsize_t r
   const Hdf5Handle space(H5Screate_simple(rank, extent.data(), nullptr), H5Sclose);
   const Hdf5Handle links(H5Pcreate(H5P_LINK_CREATE), H5Pclose), options(H5Pcreate(H5P_DATASET_CREATE), H5Pclose);
   check(H5Pset_create_intermediate_group(links, 1), "make dataset " + path);
+  check(H5Pset_obj_track_times(options, false), "make dataset " + path);  // the same bytes on another day
   if (layout.chunk_rows > 0) {
     const std::array<hsize_t, 2> chunk{layout.chunk_rows, columns};
     check(H5Pset_chunk(options, rank, chunk.data()), "chunk dataset " + path);

@@ -10,6 +10,7 @@
 #include <limits>
 #include <stdexcept>
 
+#include "core/error.hpp"
 #include "core/process.hpp"
 
 namespace drogue::io {
@@ -211,7 +212,9 @@ std::string panel(const CategoryMap& map, const MapFigure& figure, int number) {
 
 bool draw_script(const std::string& script, const fs::path& png) {
   const fs::path file = png.string() + ".gnuplot", log = png.string() + ".log";
-  std::ofstream(file) << script;
+  if (std::ofstream stream(file); !(stream << script << std::flush)) {
+    throw InputError(fmt::format("{} cannot be written", png.string()));
+  }
   const int status = run_program({"gnuplot", file.string()}, log);
   std::ifstream said(log);
   const std::string message{std::istreambuf_iterator<char>(said), {}};

@@ -183,7 +183,9 @@ TEST_F(FlowCase, mistakes_are_named) {
   folder_.write("u.csv", "x,u\n");
   EXPECT_NE(message("points = 9", "").find("holds no curve; expected two columns"), std::string::npos);
   EXPECT_EQ(message("density = 1", "density = 1\nforce = [\"x\", 0, 0]"),
-            "fluid.force depends on the place; expected formulas of t");
+            "fluid.force = \"x\" depends on the place; expected a formula in t alone");
+  EXPECT_EQ(message("density = 1", "density = 1\nforce = [\"1/t\", 0, 0]"),
+            "fluid.force = \"1/t\" is not finite at t = 0");
 }
 
 }  // namespace

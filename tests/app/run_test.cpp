@@ -11,6 +11,7 @@
 
 #include "app/case_reader.hpp"
 #include "app/interrupt.hpp"
+#include "app/run_folder.hpp"
 #include "core/error.hpp"
 #include "run_fixture.hpp"
 
@@ -88,6 +89,11 @@ TEST_F(Run, never_overwrites_without_force) {
   EXPECT_EQ(run_case(options_), 0);
   EXPECT_EQ(history().size(), 5u);
   EXPECT_TRUE(fs::exists(options_.folder / "notes.md")) << "what is not ours stays";
+}
+
+TEST_F(Run, keeps_other_runs_out_of_its_folder) {
+  const FolderLock other_run(options_.folder);
+  EXPECT_EQ(error(), "another run writes to " + options_.folder.string() + "; give another folder with -o");
 }
 
 TEST_F(Run, a_case_that_cannot_be_built_leaves_no_run) {

@@ -2,6 +2,7 @@
 // Cases without a fluid: regions, cables and points from a case, what is measured, and what can be wrong about them.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 
@@ -71,6 +72,8 @@ TEST_F(StructureCase, a_sheet_on_four_cables_hangs_in_equilibrium_and_what_was_a
   EXPECT_TRUE(summary()["finished"]);
   EXPECT_GT(results["depth"].get<double>(), 0.05);
   EXPECT_FALSE(results.contains("cd_stable"));
+  const auto told = lines("log.txt");
+  EXPECT_TRUE(std::ranges::any_of(told, [](const std::string& line) { return line.find("depth") != line.npos; }));
   EXPECT_TRUE(std::filesystem::exists(options_.folder / "canopy_000001.vtu"));
 
   const io::CsvTable history = io::read_csv(options_.folder / "history.csv");
@@ -130,7 +133,7 @@ TEST_F(StructureCase, mistakes_are_named_with_their_place) {
   const std::vector<std::array<std::string, 3>> mistakes{
       {"from = \"corners\"", "from = \"corner\"",
        "body.load.cable.lines is wrong: the mesh has no node set \"corner\""},
-      {"nodes = \"hook\"", "nodes = \"hooks\"", "body.load.hold is wrong: the mesh has no node set \"hooks\""},
+      {"nodes = \"hook\"", "nodes = \"hooks\"", "body.load.hold.0.nodes is wrong: the mesh has no node set \"hooks\""},
       {"name = \"load\"", "name = \"load\"\npressure = [{ region = \"top\", pressure = 1 }]",
        "body.load is wrong: the mesh has no region \"top\""},
       {"law = \"fabric\"", "law = \"fabrik\"", "did you mean fabric?"},

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/expression.hpp"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -69,6 +70,8 @@ TEST(Expression, says_what_it_does_not_understand) {
   EXPECT_EQ(error_of("1 +"), "\"1 +\" ends too early");
   EXPECT_EQ(error_of("1/0"), "\"1/0\" is not a finite number");
   EXPECT_EQ(error_of(" "), "an empty formula has no value");
+  const std::string endless(60000, '1');
+  EXPECT_EQ(error_of(endless), fmt::format("\"{}\" is too long", endless));
   EXPECT_NE(error_of("1 2").find("\"1 2\" has"), std::string::npos);
 }
 
