@@ -291,9 +291,10 @@ void BasicSolver<S>::report_divergence(int level) const {
       speed = std::sqrt(speed);
       const Real density = Layout::get(row, drho, at[0]);
       if (speed < speed_limit && std::abs(density) < density_limit) continue;
-      const std::string what = std::isfinite(speed) && std::isfinite(density)
-                                   ? fmt::format("speed {:.3g} m/s, density off by {:.3g} %", speed, 100 * density)
-                                   : "not a number";
+      const std::string what =
+          std::isfinite(speed) && std::isfinite(density)
+              ? fmt::format("speed {:.3g} m/s, density off by {:.3g} %", speed * units_.velocity, 100 * density)
+              : "not a number";
       throw Diverged("the fluid diverged: " + what, l.time + l.dt, level, id, at, forest_.cell_centre(id, at));
     }
   throw Diverged("the fluid diverged on level " + std::to_string(level));

@@ -275,6 +275,10 @@ TEST(Solver, divergence_names_time_level_cell_and_position) {
     const std::string message = e.what();
     for (const char* part : {"time", "level", "cell", "position"})
       EXPECT_NE(message.find(part), std::string::npos) << message;
+    // of 0.45 cells a step and more, where 0.05 are 1 m/s
+    const std::size_t speed = message.find("speed ");
+    ASSERT_NE(speed, std::string::npos) << message;
+    EXPECT_GE(std::stod(message.substr(speed + 6)), 8.9) << message;
   }
 }
 
