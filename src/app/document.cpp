@@ -111,7 +111,7 @@ toml::node* element(toml::array& array, const std::string& name) {
 /// One step down a dotted path; makes the tables that are not there yet.
 toml::node& descend(toml::node& node, const std::string& name, const std::string& so_far, const std::string& origin) {
   if (toml::table* table = node.as_table()) {
-    if (!table->contains(name)) table->insert_or_assign(name, toml::parse("", origin));
+    if (!table->contains(name)) table->insert_or_assign(name, toml::parse("", origin));  // errors in it name its origin
     return *table->get(name);
   }
   if (toml::array* array = node.as_array()) {

@@ -256,12 +256,12 @@ class BlockKernel {
     const std::byte* here = row(y, z);
     const auto& beyond = halo_.velocity[z & 1];
     std::array<V, 3> u, next, previous;
+    for (int a = 0; a < 3; ++a) u[a] = load(Layout::macro(here, ux + a));
     Differences d;
     for (int axis = 0; axis < 3; ++axis) {
       const std::byte* after = axis == 1 ? row(y + 1, z) : row(y, z + 1);
       const std::byte* before = axis == 1 ? row(y - 1, z) : row(y, z - 1);
       for (int a = 0; a < 3; ++a) {
-        if (axis == 0) u[a] = load(Layout::macro(here, ux + a));
         next[a] = axis == 0 ? shift_down<Real>(u[a], beyond[1][a][y]) : load(Layout::macro(after, ux + a));
         previous[a] = axis == 0 ? shift_up<Real>(u[a], beyond[0][a][y]) : load(Layout::macro(before, ux + a));
         d.twice_gradient[axis][a] = next[a] - previous[a];
@@ -287,6 +287,7 @@ class BlockKernel {
       factor = strain_factor_ * (scale * tau);
     }
     const V shear = Real(0.5) * factor;
+    // beyond tau = 3/4 nothing is cancelled, and at 1 per_keep_ is infinite
     const V streamed = dispersion_ > Real(0) ? dispersion_ * (kept - per_keep_) : V{};
     return {
         kept,
